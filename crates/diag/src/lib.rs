@@ -1,1 +1,15 @@
-//! placeholder
+//! Source positions and diagnostics.
+//!
+//! A [`Diagnostic`] says what is wrong in a user's file, where, what was expected, and how to mend
+//! it. Readers push diagnostics into a [`Sink`] and go on: one run reports every fault of a scene.
+//! This crate knows no file format, opens no file and prints nothing.
+
+mod render;
+mod sink;
+mod source;
+mod suggest;
+
+pub use render::{Style, to_json, to_text};
+pub use sink::{Diagnostic, Severity, Sink};
+pub use source::{Position, SourceId, SourceMap, Span, Spanned};
+pub use suggest::nearest;

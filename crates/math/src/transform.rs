@@ -119,7 +119,10 @@ mod tests {
 
     #[test]
     fn a_singular_matrix_is_refused() {
-        assert!(Transform::new(Mat3::from_rows([1.0, 2.0, 3.0, 2.0, 4.0, 6.0, 0.0, 0.0, 1.0]), Vec3::ZERO).is_none());
+        assert!(
+            Transform::new(Mat3::from_rows([1.0, 2.0, 3.0, 2.0, 4.0, 6.0, 0.0, 0.0, 1.0]), Vec3::ZERO)
+                .is_none()
+        );
         assert!(Transform::new(Mat3::scaling(f64::NAN), Vec3::ZERO).is_none());
     }
 }

@@ -97,11 +97,7 @@ impl<T: Float> Vec3<T> {
     /// Vector product.
     #[inline(always)]
     pub fn cross(self, b: Self) -> Self {
-        Self::new(
-            self.y * b.z - self.z * b.y,
-            self.z * b.x - self.x * b.z,
-            self.x * b.y - self.y * b.x,
-        )
+        Self::new(self.y * b.z - self.z * b.y, self.z * b.x - self.x * b.z, self.x * b.y - self.y * b.x)
     }
 
     /// Squared length.
@@ -173,11 +169,7 @@ impl<T: Float> Vec3<T> {
     /// The same vector in another precision.
     #[inline(always)]
     pub fn cast<U: Float>(self) -> Vec3<U> {
-        Vec3::new(
-            U::from_f64(self.x.to_f64()),
-            U::from_f64(self.y.to_f64()),
-            U::from_f64(self.z.to_f64()),
-        )
+        Vec3::new(U::from_f64(self.x.to_f64()), U::from_f64(self.y.to_f64()), U::from_f64(self.z.to_f64()))
     }
 
     /// The components as an array.
@@ -290,13 +282,7 @@ impl<T: Float> Mat3<T> {
 
     /// From nine numbers in row-major order.
     pub fn from_rows(m: [T; 9]) -> Self {
-        Self {
-            rows: [
-                Vec3::new(m[0], m[1], m[2]),
-                Vec3::new(m[3], m[4], m[5]),
-                Vec3::new(m[6], m[7], m[8]),
-            ],
-        }
+        Self { rows: [Vec3::new(m[0], m[1], m[2]), Vec3::new(m[3], m[4], m[5]), Vec3::new(m[6], m[7], m[8])] }
     }
 
     /// A uniform scaling.
@@ -348,9 +334,9 @@ impl<T: Float> Mul for Mat3<T> {
     fn mul(self, b: Self) -> Self {
         let columns = b.transposed();
         Self {
-            rows: self.rows.map(|r| {
-                Vec3::new(r.dot(columns.rows[0]), r.dot(columns.rows[1]), r.dot(columns.rows[2]))
-            }),
+            rows: self
+                .rows
+                .map(|r| Vec3::new(r.dot(columns.rows[0]), r.dot(columns.rows[1]), r.dot(columns.rows[2]))),
         }
     }
 }

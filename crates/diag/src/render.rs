@@ -1,0 +1,174 @@
+//! Diagnostics as text for people and as JSON for programs.
+
+use crate::{Diagnostic, Severity, SourceMap};
+use std::fmt::Write as _;
+
+/// How text is decorated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Style {
+    /// No escape codes.
+    Plain,
+    /// ANSI colours.
+    Colour,
+}
+
+/// Longest part of a source line that is shown; longer ones are cut round the caret.
+const LINE_WINDOW: usize = 100;
+
+/// A diagnostic as people read it: position, code, message, the line with a caret, notes and hint.
+///
+/// ```text
+/// scene.igs:41:16: error[E0203]: exponent must be > 0
+///    41 |     <exponent>-3</exponent>
+///       |               ^^ found -3
+/// ```
+pub fn to_text(diagnostic: &Diagnostic, sources: &SourceMap, style: Style) -> String {
+    let (red, yellow, bold, dim, off) = match style {
+        Style::Plain => ("", "", "", "", ""),
+        Style::Colour => ("\x1b[1;31m", "\x1b[1;33m", "\x1b[1m", "\x1b[2m", "\x1b[0m"),
+    };
+    let (word, colour) = match diagnostic.severity {
+        Severity::Error => ("error", red),
+        Severity::Warning => ("warning", yellow),
+        Severity::Note => ("note", bold),
+    };
+    let mut out = String::new();
+    if let Some(span) = diagnostic.span {
+        let p = sources.position(span);
+        let _ = write!(out, "{bold}{}:{}:{}:{off} ", sources.name(span.source), p.line, p.column);
+    }
+    let _ = writeln!(out, "{colour}{word}[{}]{off}: {bold}{}{off}", diagnostic.code, diagnostic.message);
+    if let Some(span) = diagnostic.span {
+        excerpt(&mut out, diagnostic, sources, span, (colour, dim, off));
+    } else if let Some(label) = &diagnostic.label {
+        let _ = writeln!(out, "  = {label}");
+    }
+    for note in &diagnostic.notes {
+        let _ = writeln!(out, "  = note: {note}");
+    }
+    if let Some(hint) = &diagnostic.hint {
+        let _ = writeln!(out, "  = hint: {hint}");
+    }
+    include_chain(&mut out, diagnostic, sources);
+    out
+}
+
+fn excerpt(
+    out: &mut String,
+    diagnostic: &Diagnostic,
+    sources: &SourceMap,
+    span: crate::Span,
+    (colour, dim, off): (&str, &str, &str),
+) {
+    let number = sources.position(span).line;
+    let (line, marked) = sources.line(span);
+    let chars: Vec<char> = line.chars().map(|c| if c == '\t' || c.is_control() { ' ' } else { c }).collect();
+    let first = if marked.start > LINE_WINDOW * 3 / 4 { marked.start - LINE_WINDOW / 2 } else { 0 };
+    let last = chars.len().min(first + LINE_WINDOW);
+    let shown: String = chars.get(first..last).unwrap_or_default().iter().collect();
+    let carets = marked.len().clamp(1, LINE_WINDOW.saturating_sub(marked.start - first).max(1));
+    let _ = writeln!(out, "{dim}{number:>5} |{off} {}", shown.trim_end());
+    let _ = write!(
+        out,
+        "{dim}      |{off} {}{colour}{}{off}",
+        " ".repeat(marked.start - first),
+        "^".repeat(carets)
+    );
+    match &diagnostic.label {
+        Some(label) => {
+            let _ = writeln!(out, " {colour}{label}{off}");
+        }
+        None => out.push('\n'),
+    }
+}
+
+fn include_chain(out: &mut String, diagnostic: &Diagnostic, sources: &SourceMap) {
+    let mut from = diagnostic.span.and_then(|s| sources.included_from(s.source));
+    while let Some(span) = from {
+        let p = sources.position(span);
+        let _ =
+            writeln!(out, "  = note: included from {}:{}:{}", sources.name(span.source), p.line, p.column);
+        from = sources.included_from(span.source);
+    }
+}
+
+/// A diagnostic as one line of JSON.
+pub fn to_json(diagnostic: &Diagnostic, sources: &SourceMap) -> String {
+    let mut out = String::from("{");
+    let severity = match diagnostic.severity {
+        Severity::Error => "error",
+        Severity::Warning => "warning",
+        Severity::Note => "note",
+    };
+    let _ = write!(out, "\"severity\":\"{severity}\",\"code\":\"{}\",", diagnostic.code);
+    if let Some(span) = diagnostic.span {
+        let p = sources.position(span);
+        let _ = write!(out, "\"file\":{},", quoted(sources.name(span.source)));
+        let _ = write!(out, "\"line\":{},\"column\":{},", p.line, p.column);
+    }
+    let _ = write!(out, "\"message\":{}", quoted(&diagnostic.message));
+    for (key, value) in [("expected", &diagnostic.label), ("hint", &diagnostic.hint)] {
+        if let Some(value) = value {
+            let _ = write!(out, ",\"{key}\":{}", quoted(value));
+        }
+    }
+    let notes: Vec<String> = diagnostic.notes.iter().map(|n| quoted(n)).collect();
+    let _ = write!(out, ",\"notes\":[{}]}}", notes.join(","));
+    out
+}
+
+fn quoted(text: &str) -> String {
+    let mut out = String::from("\"");
+    for c in text.chars() {
+        match c {
+            '"' => out.push_str("\\\""),
+            '\\' => out.push_str("\\\\"),
+            c if (c as u32) < 0x20 => {
+                let _ = write!(out, "\\u{:04x}", c as u32);
+            }
+            c => out.push(c),
+        }
+    }
+    out.push('"');
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{SourceMap, Span};
+
+    fn map() -> (SourceMap, Span) {
+        let mut sources = SourceMap::default();
+        let text = "<scene>\n\t<größe>-3</größe>\n</scene>\n";
+        let main = sources.add("main.igs", b"<include/>".as_slice().into(), None).unwrap();
+        let id = sources.add("a.igs", text.as_bytes().into(), Some(Span::new(main, 0, 10))).unwrap();
+        let at = text.find("-3").unwrap();
+        (sources, Span::new(id, at, at + 2))
+    }
+
+    #[test]
+    fn text_has_position_line_caret_and_include_chain() {
+        let (sources, span) = map();
+        let d = Diagnostic::error("E0203", span, "size must be > 0").expected("found -3").hint("use 3");
+        let expected = "a.igs:2:9: error[E0203]: size must be > 0\n    2 |  <größe>-3</größe>\n      |         ^^ found -3\n  = hint: use 3\n  = note: included from main.igs:1:1\n";
+        assert_eq!(to_text(&d, &sources, Style::Plain), expected);
+    }
+
+    #[test]
+    fn json_is_escaped() {
+        let (sources, span) = map();
+        let d = Diagnostic::warning("W0001", span, "a \"b\"\n");
+        assert_eq!(
+            to_json(&d, &sources),
+            "{\"severity\":\"warning\",\"code\":\"W0001\",\"file\":\"a.igs\",\"line\":2,\"column\":9,\"message\":\"a \\\"b\\\"\\u000a\",\"notes\":[]}"
+        );
+    }
+
+    #[test]
+    fn a_span_outside_its_file_is_harmless() {
+        let (sources, span) = map();
+        let d = Diagnostic::error("E0001", Span { start: 1_000_000, ..span }, "far away");
+        assert!(to_text(&d, &sources, Style::Plain).contains("far away"));
+    }
+}

@@ -1,0 +1,132 @@
+//! Diagnostics and where they gather.
+
+use crate::Span;
+
+/// How grave a diagnostic is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Severity {
+    /// Worth knowing.
+    Note,
+    /// Something was ignored or assumed.
+    Warning,
+    /// The scene cannot be rendered as written.
+    Error,
+}
+
+/// One finding about a user's file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Diagnostic {
+    /// How grave it is.
+    pub severity: Severity,
+    /// Stable code, such as `E0312`.
+    pub code: &'static str,
+    /// Where, if it has a place.
+    pub span: Option<Span>,
+    /// What is wrong.
+    pub message: String,
+    /// What was expected: printed behind the caret.
+    pub label: Option<String>,
+    /// Further facts, a line each.
+    pub notes: Vec<String>,
+    /// How to mend it.
+    pub hint: Option<String>,
+}
+
+impl Diagnostic {
+    fn new(
+        severity: Severity,
+        code: &'static str,
+        span: impl Into<Option<Span>>,
+        message: impl Into<String>,
+    ) -> Self {
+        Self {
+            severity,
+            code,
+            span: span.into(),
+            message: message.into(),
+            label: None,
+            notes: vec![],
+            hint: None,
+        }
+    }
+
+    /// An error at a place.
+    pub fn error(code: &'static str, span: impl Into<Option<Span>>, message: impl Into<String>) -> Self {
+        Self::new(Severity::Error, code, span, message)
+    }
+
+    /// A warning at a place.
+    pub fn warning(code: &'static str, span: impl Into<Option<Span>>, message: impl Into<String>) -> Self {
+        Self::new(Severity::Warning, code, span, message)
+    }
+
+    /// Says what was expected; printed behind the caret.
+    #[must_use]
+    pub fn expected(mut self, label: impl Into<String>) -> Self {
+        self.label = Some(label.into());
+        self
+    }
+
+    /// Adds a further fact.
+    #[must_use]
+    pub fn note(mut self, note: impl Into<String>) -> Self {
+        self.notes.push(note.into());
+        self
+    }
+
+    /// Says how to mend it.
+    #[must_use]
+    pub fn hint(mut self, hint: impl Into<String>) -> Self {
+        self.hint = Some(hint.into());
+        self
+    }
+}
+
+/// Gathers diagnostics. Holds at most [`Sink::LIMIT`] of them and counts the rest, so that a
+/// hostile file cannot fill the memory.
+#[derive(Clone, Debug, Default)]
+pub struct Sink {
+    diagnostics: Vec<Diagnostic>,
+    errors: usize,
+    dropped: usize,
+}
+
+impl Sink {
+    /// How many diagnostics are kept.
+    pub const LIMIT: usize = 1000;
+
+    /// An empty sink.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Takes a diagnostic.
+    pub fn push(&mut self, diagnostic: Diagnostic) {
+        self.errors += usize::from(diagnostic.severity == Severity::Error);
+        if self.diagnostics.len() < Self::LIMIT {
+            self.diagnostics.push(diagnostic);
+        } else {
+            self.dropped += 1;
+        }
+    }
+
+    /// Whether an error was taken.
+    pub fn has_errors(&self) -> bool {
+        self.errors > 0
+    }
+
+    /// How many errors were taken.
+    pub fn error_count(&self) -> usize {
+        self.errors
+    }
+
+    /// How many diagnostics were not kept.
+    pub fn dropped(&self) -> usize {
+        self.dropped
+    }
+
+    /// The diagnostics in the order of their arrival.
+    pub fn diagnostics(&self) -> &[Diagnostic] {
+        &self.diagnostics
+    }
+}
