@@ -1,1 +1,31 @@
-//! placeholder
+//! Scene elements: what they may contain, declared once.
+//!
+//! A [`Block`] is the declaration of an element with children: its name, its documentation and a
+//! table of [`Field`]s, each with kind, unit, range, default and aliases. From that one table come
+//! reading and checking ([`bind()`]), the settings listing and the scene-format reference
+//! ([`reference`]).
+//!
+//! The way of a scene: text → [`Element`] tree (made by a reader such as `igs`) → [`bind()`] against
+//! the declarations → [`Node`] tree of typed values → lowering, which reads every value it can use.
+//! A value that nobody read is reported by [`report_unread`]: what is in a scene either has an
+//! effect or is named, never silently dropped.
+//!
+//! Nothing here knows XML or the renderer.
+
+pub mod bind;
+pub mod codes;
+pub mod element;
+pub mod field;
+pub mod mesh;
+pub mod node;
+pub mod reference;
+pub mod resolver;
+pub mod value;
+
+pub use bind::{bind, report_unread};
+pub use element::{Attribute, Element};
+pub use field::{Alternatives, Block, Field, Kind, Later, Presence, Range};
+pub use mesh::{EmbeddedMesh, MeshData};
+pub use node::{Node, Slot};
+pub use resolver::{ResolveError, Resolved, Resolver};
+pub use value::Value;

@@ -1,0 +1,238 @@
+//! The tables that declare elements.
+
+/// An element with children, declared.
+#[derive(Debug)]
+pub struct Block {
+    /// Name of the element.
+    pub name: &'static str,
+    /// Other spellings found in real files.
+    pub aliases: &'static [&'static str],
+    /// What it is, in full sentences (Markdown).
+    pub doc: &'static str,
+    /// The children that it knows by name.
+    pub fields: &'static [Field],
+    /// Children of which exactly one must be present.
+    pub alternatives: Option<Alternatives>,
+    /// Children of later versions of the format: warned of by name and ignored.
+    pub later: &'static [Later],
+    /// Children of old exporters without meaning any more: warned of and ignored.
+    pub ignored: &'static [&'static str],
+    /// A complete example of the element as it stands in a file; parsed and checked by a test. May be empty.
+    pub example: &'static str,
+}
+
+impl Block {
+    /// A block of a name and fields, to be completed with struct update syntax.
+    pub const fn new(name: &'static str, doc: &'static str, fields: &'static [Field]) -> Self {
+        Self { name, aliases: &[], doc, fields, alternatives: None, later: &[], ignored: &[], example: "" }
+    }
+
+    /// The same block with alternatives.
+    #[must_use]
+    pub const fn with_alternatives(self, alternatives: Alternatives) -> Self {
+        Self { alternatives: Some(alternatives), ..self }
+    }
+
+    /// The same block with elements of later versions.
+    #[must_use]
+    pub const fn with_later(self, later: &'static [Later]) -> Self {
+        Self { later, ..self }
+    }
+
+    /// The same block with an example.
+    #[must_use]
+    pub const fn with_example(self, example: &'static str) -> Self {
+        Self { example, ..self }
+    }
+
+    /// The same block with other spellings.
+    #[must_use]
+    pub const fn with_aliases(self, aliases: &'static [&'static str]) -> Self {
+        Self { aliases, ..self }
+    }
+
+    /// The same block with elements that are ignored.
+    #[must_use]
+    pub const fn with_ignored(self, ignored: &'static [&'static str]) -> Self {
+        Self { ignored, ..self }
+    }
+
+    /// Whether an element of this name is meant.
+    pub fn is_called(&self, name: &str) -> bool {
+        self.name == name || self.aliases.contains(&name)
+    }
+}
+
+/// Children of which exactly one must be present.
+#[derive(Clone, Copy, Debug)]
+pub struct Alternatives {
+    /// What they are, such as "a tone mapper".
+    pub what: &'static str,
+    /// The declarations to choose from.
+    pub blocks: &'static [&'static Block],
+    /// Whether none may be given.
+    pub optional: bool,
+    /// The one whose fields may also stand directly in the parent, if any (an old form).
+    pub implied: Option<&'static Block>,
+}
+
+/// An element of a later version of the format.
+#[derive(Clone, Copy, Debug)]
+pub struct Later {
+    /// Name of the element.
+    pub name: &'static str,
+    /// The version that brought it.
+    pub since: &'static str,
+}
+
+/// One child of a block, declared.
+#[derive(Debug)]
+pub struct Field {
+    /// Name of the element.
+    pub name: &'static str,
+    /// Other spellings found in real files.
+    pub aliases: &'static [&'static str],
+    /// What it is, in full sentences (Markdown).
+    pub doc: &'static str,
+    /// What it holds.
+    pub kind: Kind,
+    /// Whether it must be given, and what holds if it is not.
+    pub presence: Presence,
+    /// Which numbers are allowed.
+    pub range: Range,
+    /// Unit of the numbers, such as "m"; empty for none.
+    pub unit: &'static str,
+    /// Why not to use it any more, and what instead; empty if there is no reason.
+    pub deprecated: &'static str,
+}
+
+impl Field {
+    /// A field, to be completed by the methods below.
+    pub const fn new(name: &'static str, kind: Kind, presence: Presence, doc: &'static str) -> Self {
+        Self { name, aliases: &[], doc, kind, presence, range: Range::Any, unit: "", deprecated: "" }
+    }
+
+    /// The same field with a unit.
+    #[must_use]
+    pub const fn unit(self, unit: &'static str) -> Self {
+        Self { unit, ..self }
+    }
+
+    /// The same field with a range.
+    #[must_use]
+    pub const fn range(self, range: Range) -> Self {
+        Self { range, ..self }
+    }
+
+    /// The same field with other spellings.
+    #[must_use]
+    pub const fn aliases(self, aliases: &'static [&'static str]) -> Self {
+        Self { aliases, ..self }
+    }
+
+    /// The same field, discouraged.
+    #[must_use]
+    pub const fn deprecated(self, why: &'static str) -> Self {
+        Self { deprecated: why, ..self }
+    }
+
+    /// Whether an element of this name is meant.
+    pub fn is_called(&self, name: &str) -> bool {
+        self.name == name || self.aliases.contains(&name)
+    }
+}
+
+/// What an element holds.
+#[derive(Clone, Copy, Debug)]
+pub enum Kind {
+    /// Nothing: its presence counts (`<autofocus/>`).
+    Flag,
+    /// `true` or `false`.
+    Bool,
+    /// A whole number.
+    Int,
+    /// A real number.
+    Real,
+    /// Three real numbers.
+    Vec3,
+    /// Nine real numbers, row-major; three zeros may follow (as later exporters write).
+    Matrix3,
+    /// Any number of real numbers.
+    Reals,
+    /// Free text.
+    Text,
+    /// Path of a file.
+    Path,
+    /// One of some words.
+    Choice(&'static [&'static str]),
+    /// The name that this element defines.
+    Name,
+    /// The name of something defined elsewhere; the word says what ("material").
+    Reference(&'static str),
+    /// An element with children.
+    Block(&'static Block),
+    /// An element whose content is exactly one of several blocks, directly or in a `constant` wrapper.
+    OneOf(&'static Alternatives),
+    /// The bulk data of an embedded mesh.
+    EmbeddedMesh,
+}
+
+/// Whether a child must be given, and what holds if it is not.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Presence {
+    /// Must be given.
+    Required,
+    /// May be missing; its absence has a meaning that the documentation gives.
+    Optional,
+    /// May be missing; this text holds then.
+    Default(&'static str),
+    /// May be given any number of times.
+    Repeated,
+}
+
+/// Which numbers are allowed; for several numbers it holds for each.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Range {
+    /// All finite ones.
+    Any,
+    /// Greater than.
+    Above(f64),
+    /// At least.
+    AtLeast(f64),
+    /// Between two, both included.
+    Within(f64, f64),
+}
+
+impl Range {
+    /// Whether a number is allowed.
+    pub fn allows(self, v: f64) -> bool {
+        match self {
+            Self::Any => v.is_finite(),
+            Self::Above(lo) => v > lo && v.is_finite(),
+            Self::AtLeast(lo) => v >= lo && v.is_finite(),
+            Self::Within(lo, hi) => (lo..=hi).contains(&v),
+        }
+    }
+
+    /// In words: "must be > 0".
+    pub fn words(self) -> String {
+        match self {
+            Self::Any => "must be finite".to_owned(),
+            Self::Above(lo) => format!("must be > {lo}"),
+            Self::AtLeast(lo) => format!("must be >= {lo}"),
+            Self::Within(lo, hi) => format!("must be in [{lo}, {hi}]"),
+        }
+    }
+
+    /// An allowed number near a forbidden one: the stand-in with which reading goes on.
+    pub fn nearest(self, v: f64) -> f64 {
+        let v = if v.is_finite() { v } else { 0.0 };
+        match self {
+            Self::Any => v,
+            Self::Above(lo) if v <= lo => lo + 1.0,
+            Self::Above(_) => v,
+            Self::AtLeast(lo) => v.max(lo),
+            Self::Within(lo, hi) => v.clamp(lo, hi),
+        }
+    }
+}
