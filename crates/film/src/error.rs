@@ -1,0 +1,41 @@
+//! What can be wrong with a film's size, its filter, or a film to be merged into it.
+
+/// Why a film or filter could not be made, or two films not be merged.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum FilmError {
+    /// A side or the super-sampling factor is zero.
+    #[error("a film needs at least one pixel: {width} x {height}, super-sampled {super_sample} times")]
+    Empty {
+        /// Width of the picture in pixels.
+        width: u32,
+        /// Height of the picture in pixels.
+        height: u32,
+        /// Internal pixels per output pixel along one axis.
+        super_sample: u32,
+    },
+    /// More internal pixels than [`FilmSize::MAX_SIDE`](crate::FilmSize::MAX_SIDE) and
+    /// [`FilmSize::MAX_PIXELS`](crate::FilmSize::MAX_PIXELS) allow.
+    #[error("a film of {width} x {height} pixels, super-sampled {super_sample} times, is too large")]
+    TooLarge {
+        /// Width of the picture in pixels.
+        width: u32,
+        /// Height of the picture in pixels.
+        height: u32,
+        /// Internal pixels per output pixel along one axis.
+        super_sample: u32,
+    },
+    /// A Mitchell-Netravali parameter is not a number of reasonable size.
+    #[error("the filter's blur {blur} and ring {ring} must lie between -10 and 10")]
+    FilterParameters {
+        /// The `B` parameter.
+        blur: f64,
+        /// The `C` parameter.
+        ring: f64,
+    },
+    /// The films differ in resolution or super-sampling.
+    #[error("films of different sizes cannot be merged: {0} and {1}")]
+    SizeMismatch(crate::FilmSize, crate::FilmSize),
+    /// The films differ in the number, kinds or names of their layers.
+    #[error("films with different layers cannot be merged")]
+    LayerMismatch,
+}

@@ -1,0 +1,218 @@
+//! The film that many workers share: one lock per band of rows.
+
+use crate::band::{BAND_ROWS, RowsMut, add_bricks, band_count, develop_layer};
+use crate::state::{check_fit, samples};
+use crate::{FilmDelta, FilmError, FilmSize, FilmState, Layer, LayerKind, Totals, XyzImage};
+use std::sync::{Mutex, MutexGuard, PoisonError, RwLock, TryLockError};
+
+/// A film that workers merge their deltas into at the same time.
+///
+/// A merge holds the gate as a reader and one band at a time; a snapshot holds the gate alone, so
+/// that sums and totals always agree in what it sees. Deltas merged in the same order by one
+/// thread give the same bits.
+#[derive(Debug)]
+pub struct MasterFilm {
+    size: FilmSize,
+    layers: Vec<(LayerKind, String)>,
+    gate: RwLock<()>,
+    bands: Vec<Mutex<Band>>,
+    tally: Mutex<Tally>,
+}
+
+/// The rows of a band, layer by layer.
+#[derive(Debug)]
+struct Band {
+    layers: Vec<BandLayer>,
+}
+
+#[derive(Debug)]
+struct BandLayer {
+    sums: Vec<[f64; 4]>,
+    counts: Vec<f64>,
+}
+
+/// What is counted for the film as a whole.
+#[derive(Debug)]
+struct Tally {
+    layers: Vec<Totals>,
+    refused: u64,
+}
+
+impl MasterFilm {
+    /// A film without samples, with layers of these kinds and names.
+    pub fn new(size: FilmSize, layers: &[(LayerKind, &str)]) -> Self {
+        let width = size.internal_width() as usize;
+        let height = size.internal_height() as usize;
+        let bands = (0..band_count(size)).map(|band| {
+            let pixels = width * BAND_ROWS.min(height - band * BAND_ROWS);
+            let layers = layers.iter().map(|&(kind, _)| BandLayer {
+                sums: vec![[0.0; 4]; pixels],
+                counts: vec![0.0; kind.count_slots(pixels)],
+            });
+            Mutex::new(Band { layers: layers.collect() })
+        });
+        Self {
+            size,
+            layers: layers.iter().map(|&(kind, name)| (kind, name.to_owned())).collect(),
+            gate: RwLock::new(()),
+            bands: bands.collect(),
+            tally: Mutex::new(Tally { layers: vec![Totals::default(); layers.len()], refused: 0 }),
+        }
+    }
+
+    /// The film's resolution.
+    pub fn size(&self) -> FilmSize {
+        self.size
+    }
+
+    /// An empty delta that fits this film.
+    pub fn delta(&self) -> FilmDelta {
+        FilmDelta::new(self.size, self.kinds())
+    }
+
+    /// Adds what a delta holds; may be called by any number of threads. Errors: the delta was made
+    /// for another film.
+    pub fn merge(&self, delta: &FilmDelta) -> Result<(), FilmError> {
+        check_fit(delta, self.size, self.kinds())?;
+        let _gate = self.gate.read().unwrap_or_else(PoisonError::into_inner);
+        // Bands that another worker holds are left for a second pass, so that workers who hand
+        // over together do not queue behind one another.
+        let busy: Vec<usize> =
+            (0..self.bands.len()).filter(|&band| !self.try_merge_band(delta, band)).collect();
+        for band in busy {
+            self.merge_band(delta, band, &mut lock(&self.bands[band]));
+        }
+        let mut tally = lock(&self.tally);
+        for (mine, layer) in tally.layers.iter_mut().zip(delta.layers()) {
+            mine.add(&layer.totals);
+        }
+        tally.refused += delta.refused();
+        Ok(())
+    }
+
+    /// Adds a saved film, as a resumed or merged run does. Errors: sizes or layers differ.
+    pub fn merge_state(&self, state: &FilmState) -> Result<(), FilmError> {
+        if state.size != self.size {
+            return Err(FilmError::SizeMismatch(self.size, state.size));
+        }
+        let pixels = self.size.internal_pixels();
+        let same = |(mine, theirs): (&(LayerKind, String), &Layer)| {
+            mine.0 == theirs.kind
+                && mine.1 == theirs.name
+                && theirs.sums.len() == pixels
+                && theirs.counts.len() == theirs.kind.count_slots(pixels)
+        };
+        if self.layers.len() != state.layers.len() || !self.layers.iter().zip(&state.layers).all(same) {
+            return Err(FilmError::LayerMismatch);
+        }
+        let _gate = self.gate.read().unwrap_or_else(PoisonError::into_inner);
+        for (index, band) in self.bands.iter().enumerate() {
+            lock(band).add_state(state, index * BAND_ROWS * self.size.internal_width() as usize);
+        }
+        let mut tally = lock(&self.tally);
+        for (mine, layer) in tally.layers.iter_mut().zip(&state.layers) {
+            mine.add(&layer.totals);
+        }
+        tally.refused += state.refused;
+        Ok(())
+    }
+
+    /// A copy of the film as it stands, for saving.
+    pub fn snapshot(&self) -> FilmState {
+        let _gate = self.gate.write().unwrap_or_else(PoisonError::into_inner);
+        let tally = lock(&self.tally);
+        let mut layers: Vec<Layer> = self
+            .layers
+            .iter()
+            .zip(&tally.layers)
+            .map(|((kind, name), totals)| Layer {
+                kind: *kind,
+                name: name.clone(),
+                sums: Vec::with_capacity(self.size.internal_pixels()),
+                counts: Vec::with_capacity(kind.count_slots(self.size.internal_pixels())),
+                totals: *totals,
+            })
+            .collect();
+        for band in &self.bands {
+            for (layer, rows) in layers.iter_mut().zip(&lock(band).layers) {
+                layer.sums.extend_from_slice(&rows.sums);
+                layer.counts.extend_from_slice(&rows.counts);
+            }
+        }
+        FilmState { size: self.size, layers, refused: tally.refused }
+    }
+
+    /// The film's radiance as it stands, without copying its sums; see [`FilmState::develop`].
+    /// Merges wait meanwhile, and so must not themselves be tasks of the rayon pool that this
+    /// runs on, which is the caller's.
+    pub fn develop(&self) -> XyzImage {
+        let _gate = self.gate.write().unwrap_or_else(PoisonError::into_inner);
+        let totals = lock(&self.tally).layers.clone();
+        let counted = self.kinds().any(|kind| kind == LayerKind::PerPixel);
+        XyzImage::from_bands(self.size, counted, |index, out, missing| {
+            let band = lock(&self.bands[index]);
+            for ((kind, totals), rows) in self.kinds().zip(&totals).zip(&band.layers) {
+                let rows = (&*rows.sums, &*rows.counts);
+                develop_layer(kind, totals, self.size.internal_pixels(), rows, out, missing);
+            }
+        })
+    }
+
+    /// Samples per output pixel so far; see [`FilmState::samples_per_pixel`].
+    pub fn samples_per_pixel(&self) -> f64 {
+        samples(lock(&self.tally).layers.iter().map(|t| t.n_samples)) / self.size.pixels() as f64
+    }
+
+    /// Contributions that were refused since they were not finite.
+    pub fn refused(&self) -> u64 {
+        lock(&self.tally).refused
+    }
+
+    /// Bytes that its sums and counts hold.
+    pub fn memory_bytes(&self) -> usize {
+        let pixel = |kind: LayerKind| size_of::<[f64; 4]>() + kind.count_slots(1) * size_of::<f64>();
+        self.kinds().map(pixel).sum::<usize>() * self.size.internal_pixels()
+    }
+
+    fn kinds(&self) -> impl Iterator<Item = LayerKind> + '_ {
+        self.layers.iter().map(|&(kind, _)| kind)
+    }
+
+    /// Merges a band unless another thread holds it; whether it did.
+    fn try_merge_band(&self, delta: &FilmDelta, index: usize) -> bool {
+        let mut band = match self.bands[index].try_lock() {
+            Ok(band) => band,
+            Err(TryLockError::Poisoned(poisoned)) => poisoned.into_inner(),
+            Err(TryLockError::WouldBlock) => return false,
+        };
+        self.merge_band(delta, index, &mut band);
+        true
+    }
+
+    fn merge_band(&self, delta: &FilmDelta, index: usize, band: &mut Band) {
+        for (layer, rows) in band.layers.iter_mut().enumerate() {
+            let mut rows = RowsMut { sums: &mut rows.sums, counts: &mut rows.counts };
+            add_bricks(delta.band(layer, index), self.size.internal_width() as usize, &mut rows);
+        }
+    }
+}
+
+impl Band {
+    /// Adds the rows of a saved film that start at pixel `from`.
+    fn add_state(&mut self, state: &FilmState, from: usize) {
+        for (rows, layer) in self.layers.iter_mut().zip(&state.layers) {
+            for (a, b) in rows.sums.iter_mut().flatten().zip(layer.sums[from..].iter().flatten()) {
+                *a += b;
+            }
+            for (a, b) in rows.counts.iter_mut().zip(layer.counts.iter().skip(from)) {
+                *a += b;
+            }
+        }
+    }
+}
+
+/// A lock whatever became of its last holder: additions leave no half-made state that matters more
+/// than the panic that is already on its way.
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
