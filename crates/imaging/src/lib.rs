@@ -1,1 +1,33 @@
-//! placeholder
+//! From film to picture: white balance, tone mapping, downsizing, and the files they end in.
+//!
+//! The film itself never changes: a picture is made from it as often as one likes, with other
+//! settings each time. [`develop`] makes the picture that is shown and saved as PNG; [`untonemapped`]
+//! makes the linear one, in cd/m², that is saved as EXR.
+//!
+//! The order of the steps, for each internal pixel: XYZ, Bradford adaptation to D65, linear
+//! Rec. 709, tone mapping, clamping to [0, 1]; then the downsize filter, in display-linear light,
+//! and clamping again, since a filter with negative lobes overshoots. Clamping first is what makes
+//! an edge of something very bright as smooth as any other.
+//!
+//! Everything here is a pure function of bytes and numbers; large loops run on the caller's rayon
+//! pool and give the same bits whatever its size.
+
+mod develop;
+mod downsize;
+mod error;
+pub mod exr;
+mod metadata;
+mod picture;
+pub mod png;
+mod settings;
+mod srgb;
+mod tonemap;
+mod white_balance;
+
+pub use develop::{develop, develop_image, untonemapped};
+pub use error::ImagingError;
+pub use metadata::{Metadata, RenderFacts};
+pub use picture::{LinearImage, Picture};
+pub use settings::{Exposure, PictureSettings, Region};
+pub use tonemap::ToneMapping;
+pub use white_balance::WhiteBalance;

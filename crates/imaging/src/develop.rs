@@ -1,0 +1,103 @@
+//! Developing: the steps from film to picture in their order.
+
+use crate::downsize::{downsize, extent};
+use crate::tonemap::ToneMapper;
+use crate::white_balance::plain_rgb;
+use crate::{LinearImage, Picture, PictureSettings, Region};
+use indigo_film::{FilmSize, FilmState, Filter, XyzImage};
+use rayon::prelude::*;
+
+/// Makes the picture of a film. Runs on the caller's rayon pool.
+pub fn develop(film: &FilmState, settings: &PictureSettings) -> Picture {
+    develop_image(&film.develop(), settings)
+}
+
+/// Makes the picture of a film that has been developed to XYZ, as a shared film is without copying
+/// its sums.
+pub fn develop_image(image: &XyzImage, settings: &PictureSettings) -> Picture {
+    let size = image.size;
+    let region = settings.region.unwrap_or_else(|| Region::whole(size)).within(size);
+    let window = Window::new(image, region);
+    let mut pixels = if settings.foreground_alpha {
+        downsize(size, region, settings.downsize, |y, out| coverage_row(window.row(y), out))
+    } else {
+        let mapper = ToneMapper::new(settings, window.rows());
+        downsize(size, region, settings.downsize, |y, out| {
+            mapper.map_row(window.row(y), out);
+            clamp(out);
+        })
+    };
+    clamp(&mut pixels);
+    Picture { width: size.width(), height: size.height(), pixels: framed(size, region, pixels) }
+}
+
+/// Makes the linear picture of a film: Rec. 709 in cd/m², without white balance and exposure.
+/// `filter` must pass [`Filter::check`]. Runs on the caller's rayon pool.
+pub fn untonemapped(image: &XyzImage, filter: Filter, region: Option<Region>) -> LinearImage {
+    let size = image.size;
+    let region = region.unwrap_or_else(|| Region::whole(size)).within(size);
+    let window = Window::new(image, region);
+    // The matrix is linear like the filter: apply it to the few pixels that are left.
+    let mut pixels = downsize(size, region, filter, |y, out| out.copy_from_slice(window.row(y)));
+    let matrix = plain_rgb();
+    pixels.par_iter_mut().for_each(|pixel| {
+        let [r, g, b] = matrix.apply(pixel);
+        *pixel = [r, g, b, pixel[3]];
+    });
+    LinearImage { width: size.width(), height: size.height(), pixels: framed(size, region, pixels) }
+}
+
+/// The internal pixels of a region.
+struct Window<'a> {
+    image: &'a XyzImage,
+    first_row: usize,
+    last_row: usize,
+    columns: std::ops::Range<usize>,
+}
+
+impl<'a> Window<'a> {
+    fn new(image: &'a XyzImage, region: Region) -> Self {
+        let factor = image.size.super_sample() as usize;
+        let internal = |v: u32| v as usize * factor;
+        let ([x1, y1], [x2, y2]) = (region.start(), region.end());
+        Self { image, first_row: internal(y1), last_row: internal(y2), columns: internal(x1)..internal(x2) }
+    }
+
+    /// Row `y`, counted from the region's top.
+    fn row(&self, y: usize) -> &'a [[f32; 4]] {
+        let start = (self.first_row + y) * self.image.size.internal_width() as usize;
+        &self.image.pixels[start + self.columns.start..start + self.columns.end]
+    }
+
+    fn rows(&self) -> impl IndexedParallelIterator<Item = &'a [[f32; 4]]> + '_ {
+        (0..self.last_row - self.first_row).into_par_iter().map(|y| self.row(y))
+    }
+}
+
+/// Coverage by the foreground as grey.
+fn coverage_row(from: &[[f32; 4]], to: &mut [[f32; 4]]) {
+    for (pixel, out) in from.iter().zip(to) {
+        *out = [pixel[3]; 4];
+    }
+}
+
+/// Brings all components into [0, 1]; a NaN (of sums beyond all bounds) becomes 0.
+fn clamp(pixels: &mut [[f32; 4]]) {
+    for v in pixels.iter_mut().flatten() {
+        *v = if *v > 0.0 { v.min(1.0) } else { 0.0 };
+    }
+}
+
+/// A region's pixels in a frame of the picture's full size, black where nothing was rendered.
+fn framed(size: FilmSize, region: Region, pixels: Vec<[f32; 4]>) -> Vec<[f32; 4]> {
+    if region == Region::whole(size) {
+        return pixels;
+    }
+    let mut frame = vec![[0.0; 4]; size.pixels()];
+    let ([width, _], [x1, y1]) = (extent(region), region.start());
+    let rows = frame.chunks_exact_mut(size.width() as usize).skip(y1 as usize);
+    for (to, from) in rows.zip(pixels.chunks_exact(width.max(1))) {
+        to[x1 as usize..x1 as usize + width].copy_from_slice(from);
+    }
+    frame
+}

@@ -1,0 +1,89 @@
+//! PNG: the picture as it is shown, with its metadata.
+
+use crate::srgb::{Encoder8, encode16};
+use crate::{ImagingError, Metadata, Picture};
+use png::{BitDepth, ColorType, Compression, Decoder, Encoder, SrgbRenderingIntent};
+use rayon::prelude::*;
+use std::io::Cursor;
+
+/// Bits per component.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Depth {
+    /// 8 bits.
+    #[default]
+    Eight,
+    /// 16 bits.
+    Sixteen,
+}
+
+/// The most bytes of compressed text that [`read_metadata`] unpacks from one entry.
+const TEXT_LIMIT: usize = 1 << 20;
+
+/// Encodes a picture as sRGB, with its metadata as uncompressed text sorted by key before the
+/// pixels. A value beyond Latin-1 becomes UTF-8 text (iTXt). Errors: metadata that cannot be
+/// stored, a picture without pixels.
+pub fn encode(picture: &Picture, metadata: &Metadata, depth: Depth) -> Result<Vec<u8>, ImagingError> {
+    let mut bytes = Vec::new();
+    let mut encoder = Encoder::new(&mut bytes, picture.width, picture.height);
+    encoder.set_color(ColorType::Rgb);
+    encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
+    encoder.set_compression(Compression::Fast);
+    for (key, value) in metadata.sorted()? {
+        let (key, value) = (key.to_owned(), value.to_owned());
+        if value.chars().all(|c| u32::from(c) < 256) {
+            encoder.add_text_chunk(key, value).map_err(failure)?;
+        } else {
+            encoder.add_itxt_chunk(key, value).map_err(failure)?;
+        }
+    }
+    let data = match depth {
+        Depth::Eight => {
+            encoder.set_depth(BitDepth::Eight);
+            codes8(picture)
+        }
+        Depth::Sixteen => {
+            encoder.set_depth(BitDepth::Sixteen);
+            codes16(picture)
+        }
+    };
+    let mut writer = encoder.write_header().map_err(failure)?;
+    writer.write_image_data(&data).map_err(failure)?;
+    writer.finish().map_err(failure)?;
+    Ok(bytes)
+}
+
+/// The text entries of a PNG, in the order of their chunks' kinds: Latin-1 (plain, then
+/// compressed), then UTF-8. Errors: not a PNG, or a damaged one.
+pub fn read_metadata(bytes: &[u8]) -> Result<Vec<(String, String)>, ImagingError> {
+    let mut decoder = Decoder::new(Cursor::new(bytes));
+    decoder.set_ignore_text_chunk(false);
+    let mut reader = decoder.read_info().map_err(failure)?;
+    // Text may follow the pixels.
+    reader.finish().map_err(failure)?;
+    let info = reader.info();
+    let mut entries: Vec<_> =
+        info.uncompressed_latin1_text.iter().map(|t| (t.keyword.clone(), t.text.clone())).collect();
+    for mut text in info.compressed_latin1_text.iter().cloned() {
+        text.decompress_text_with_limit(TEXT_LIMIT).map_err(failure)?;
+        entries.push((text.keyword.clone(), text.get_text().map_err(failure)?));
+    }
+    for mut text in info.utf8_text.iter().cloned() {
+        text.decompress_text_with_limit(TEXT_LIMIT).map_err(failure)?;
+        entries.push((text.keyword.clone(), text.get_text().map_err(failure)?));
+    }
+    Ok(entries)
+}
+
+fn codes8(picture: &Picture) -> Vec<u8> {
+    let encoder = Encoder8::new();
+    picture.pixels.par_iter().flat_map_iter(|[r, g, b, _]| [*r, *g, *b].map(|v| encoder.encode(v))).collect()
+}
+
+fn codes16(picture: &Picture) -> Vec<u8> {
+    let code = |v: &f32| encode16(*v).to_be_bytes();
+    picture.pixels.par_iter().flat_map_iter(|p| p[..3].iter().flat_map(code)).collect()
+}
+
+fn failure(error: impl std::fmt::Display) -> ImagingError {
+    ImagingError::Png(error.to_string())
+}

@@ -1,0 +1,85 @@
+//! How a picture is made from the film.
+
+use crate::{ImagingError, ToneMapping, WhiteBalance};
+use indigo_film::{FilmSize, Filter};
+
+/// All that a picture depends on besides the film.
+#[derive(Clone, Debug)]
+pub struct PictureSettings {
+    /// From light to display-linear values.
+    pub tone_mapping: ToneMapping,
+    /// What counts as white.
+    pub white_balance: WhiteBalance,
+    /// The filter from internal to output pixels, measured in output pixels; without effect where
+    /// the film is not super-sampled. Its parameters must pass [`Filter::check`]; those outside
+    /// [0, 1] may ring visibly.
+    pub downsize: Filter,
+    /// From luminance to the light that a pixel of the sensor gathers.
+    pub exposure: Exposure,
+    /// Show the coverage by the foreground as grey instead of the light.
+    pub foreground_alpha: bool,
+    /// The part of the picture that is rendered; the rest of it stays black. None: all of it.
+    pub region: Option<Region>,
+}
+
+/// The facts of a camera that decide its exposure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Exposure {
+    /// Radius of the aperture in metres.
+    pub aperture_radius: f64,
+    /// Distance from lens to sensor in metres.
+    pub lens_sensor_dist: f64,
+    /// How long the shutter is open, in seconds.
+    pub duration: f64,
+}
+
+impl Exposure {
+    /// Exposure of the sensor in lux·s for a luminance of 1 cd/m²: the sensor sees the lens under
+    /// the projected solid angle π (r/d)².
+    pub fn lux_seconds_per_nit(&self) -> f64 {
+        let ratio = self.aperture_radius / self.lens_sensor_dist;
+        std::f64::consts::PI * ratio * ratio * self.duration
+    }
+}
+
+/// A half-open rectangle of output pixels: x1 ≤ x < x2 and y1 ≤ y < y2.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Region {
+    x1: u32,
+    y1: u32,
+    x2: u32,
+    y2: u32,
+}
+
+impl Region {
+    /// A region of a picture. Errors: it is empty, or leaves the picture.
+    pub fn new([x1, y1]: [u32; 2], [x2, y2]: [u32; 2], size: FilmSize) -> Result<Self, ImagingError> {
+        let (width, height) = (size.width(), size.height());
+        if x1 < x2 && x2 <= width && y1 < y2 && y2 <= height {
+            Ok(Self { x1, y1, x2, y2 })
+        } else {
+            Err(ImagingError::Region { x1, y1, x2, y2, width, height })
+        }
+    }
+
+    /// The whole picture.
+    pub fn whole(size: FilmSize) -> Self {
+        Self { x1: 0, y1: 0, x2: size.width(), y2: size.height() }
+    }
+
+    /// First column and row.
+    pub fn start(&self) -> [u32; 2] {
+        [self.x1, self.y1]
+    }
+
+    /// The column and the row after the last.
+    pub fn end(&self) -> [u32; 2] {
+        [self.x2, self.y2]
+    }
+
+    /// The part of it that lies within a picture, should it have been made for another.
+    pub(crate) fn within(self, size: FilmSize) -> Self {
+        let (x2, y2) = (self.x2.min(size.width()), self.y2.min(size.height()));
+        Self { x1: self.x1.min(x2), y1: self.y1.min(y2), x2, y2 }
+    }
+}

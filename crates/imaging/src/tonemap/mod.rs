@@ -1,0 +1,58 @@
+//! Tone mapping: from the light on the sensor to what a display can show.
+
+mod linear;
+mod reinhard;
+
+use crate::PictureSettings;
+use linear::Linear;
+use reinhard::Reinhard;
+
+/// How light becomes display-linear values.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ToneMapping {
+    /// scale · H, where H is the white-balanced exposure in lux·s.
+    Linear {
+        /// The factor, at least 0.
+        scale: f64,
+    },
+    /// The global operator of Reinhard et al., "Photographic Tone Reproduction for Digital
+    /// Images", SIGGRAPH 2002, section 3.1. It adapts itself to the picture, so the exposure has no
+    /// part in it.
+    Reinhard {
+        /// Luminance of the picture's log average before compression: the paper's key a.
+        pre_scale: f64,
+        /// Factor after compression.
+        post_scale: f64,
+        /// The scaled luminance that becomes white, unless the picture's largest is less.
+        burn: f64,
+    },
+}
+
+/// A tone mapping with its numbers worked out for one film.
+pub(crate) enum ToneMapper {
+    Linear(Linear),
+    Reinhard(Reinhard),
+}
+
+impl ToneMapper {
+    /// Prepares the settings' tone mapping for the rows (XYZ and alpha) that it will be given.
+    pub(crate) fn new<'a, R>(settings: &PictureSettings, rows: R) -> Self
+    where
+        R: rayon::iter::IndexedParallelIterator<Item = &'a [[f32; 4]]>,
+    {
+        match settings.tone_mapping {
+            ToneMapping::Linear { scale } => Self::Linear(Linear::new(scale, settings)),
+            ToneMapping::Reinhard { pre_scale, post_scale, burn } => {
+                Self::Reinhard(Reinhard::new([pre_scale, post_scale, burn], settings.white_balance, rows))
+            }
+        }
+    }
+
+    /// Maps a row of XYZ and alpha to display-linear RGB, not clamped, and alpha.
+    pub(crate) fn map_row(&self, from: &[[f32; 4]], to: &mut [[f32; 4]]) {
+        match self {
+            Self::Linear(linear) => linear.map_row(from, to),
+            Self::Reinhard(reinhard) => reinhard.map_row(from, to),
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! White balance: chromatic adaptation from the scene's white to the display's.
+
+use crate::ImagingError;
+use indigo_math::Mat3;
+use indigo_spectrum::adaptation::{XYZ_TO_RGB, bradford_to_d65};
+
+/// The Bradford adaptation from a named white to D65. It acts when a picture is developed, never
+/// on the film.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WhiteBalance {
+    adaptation: Mat3<f64>,
+}
+
+impl Default for WhiteBalance {
+    fn default() -> Self {
+        Self::NONE
+    }
+}
+
+impl WhiteBalance {
+    /// The display's own white, D65: nothing is adapted.
+    pub const NONE: Self = Self { adaptation: Mat3::IDENTITY };
+
+    /// Light of the CIE 1931 chromaticity (x, y) becomes a neutral grey. Errors: no white has that
+    /// chromaticity.
+    pub fn from_white([x, y]: [f64; 2]) -> Result<Self, ImagingError> {
+        let possible = x > 0.0 && y > 0.0 && x + y <= 1.0;
+        match bradford_to_d65([x, y]) {
+            Some(adaptation) if possible => Ok(Self { adaptation }),
+            _ => Err(ImagingError::NotAWhite { x, y }),
+        }
+    }
+
+    /// From XYZ of the film to white-balanced linear Rec. 709.
+    pub(crate) fn to_rgb(self) -> Matrix {
+        Matrix::new(&(Mat3::from_rows(XYZ_TO_RGB) * self.adaptation))
+    }
+
+    /// The row that gives the white-balanced luminance of XYZ.
+    pub(crate) fn luminance_row(self) -> [f32; 3] {
+        self.adaptation.rows[1].to_array().map(|v| v as f32)
+    }
+}
+
+/// From XYZ to linear Rec. 709 without white balance.
+pub(crate) fn plain_rgb() -> Matrix {
+    WhiteBalance::NONE.to_rgb()
+}
+
+/// A colour matrix in single precision, for pixel loops.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Matrix([[f32; 3]; 3]);
+
+impl Matrix {
+    fn new(m: &Mat3<f64>) -> Self {
+        Self(m.rows.map(|row| row.to_array().map(|v| v as f32)))
+    }
+
+    /// All entries times a factor.
+    pub(crate) fn scaled(self, factor: f32) -> Self {
+        Self(self.0.map(|row| row.map(|v| v * factor)))
+    }
+
+    /// The matrix times the first three components of a pixel.
+    #[inline]
+    pub(crate) fn apply(&self, p: &[f32; 4]) -> [f32; 3] {
+        self.0.map(|row| dot(row, p))
+    }
+}
+
+/// Scalar product with the first three components of a pixel.
+#[inline]
+pub(crate) fn dot(row: [f32; 3], p: &[f32; 4]) -> f32 {
+    row[0] * p[0] + row[1] * p[1] + row[2] * p[2]
+}
