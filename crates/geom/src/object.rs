@@ -1,0 +1,51 @@
+//! The objects of a scene.
+
+use indigo_math::{Transform, Vec3d};
+
+/// One object; its id is its index in the list given to [`Accel::build`](crate::Accel::build).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Object {
+    /// A mesh somewhere in the scene.
+    Mesh {
+        /// Index in the list of meshes.
+        mesh: u32,
+        /// Object to render space.
+        transform: Transform,
+    },
+    /// A sphere; its normals point outwards.
+    Sphere {
+        /// Centre in render space, metres.
+        center: Vec3d,
+        /// Radius in metres, above 0.
+        radius: f64,
+    },
+    /// An infinite plane: the points p with `normal · p = dist`. Its front is where the normal points.
+    Plane {
+        /// Normal of any length but 0.
+        normal: Vec3d,
+        /// Distance from the origin along the normal, in lengths of the normal.
+        dist: f64,
+    },
+}
+
+impl Object {
+    /// Whether the numbers have a meaning (finite, radius above 0, normal not 0).
+    pub(crate) fn is_sound(&self) -> bool {
+        match *self {
+            Self::Mesh { transform, .. } => transform.origin().is_finite(),
+            Self::Sphere { center, radius } => center.is_finite() && radius > 0.0 && radius.is_finite(),
+            Self::Plane { normal, dist } => normal.try_normalized().is_some() && dist.is_finite(),
+        }
+    }
+
+    /// Gives a plane a unit normal.
+    pub(crate) fn normalize(&mut self) {
+        if let Self::Plane { normal, dist } = self {
+            // Scale first, as `try_normalized` does, so that extreme lengths keep their digits.
+            let largest = normal.abs().max_component();
+            let scaled = *normal / largest;
+            *dist = *dist / largest / scaled.length();
+            *normal = scaled.normalized();
+        }
+    }
+}

@@ -1,0 +1,54 @@
+//! Rays and hits.
+
+use indigo_math::{Real, Vec3};
+
+/// A half-line, or a part of one: the points `o + t d` with `t_min < t < t_max`.
+///
+/// A ray with a component that is infinite or NaN, or without a direction, hits nothing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray {
+    /// Origin, metres.
+    pub o: Vec3,
+    /// Direction; need not have unit length, `t` counts in its lengths.
+    pub d: Vec3,
+    /// Hits at or before this `t` do not count; below 0 it is taken as 0.
+    pub t_min: Real,
+    /// Hits at or beyond this `t` do not count; may be infinite.
+    pub t_max: Real,
+}
+
+impl Ray {
+    /// The whole half-line from `o` along `d`.
+    #[inline]
+    pub fn new(o: Vec3, d: Vec3) -> Self {
+        Self { o, d, t_min: 0.0, t_max: Real::INFINITY }
+    }
+
+    /// The point at parameter `t`.
+    #[inline]
+    pub fn at(&self, t: Real) -> Vec3 {
+        self.o + self.d * t
+    }
+
+    /// Whether the ray can hit anything at all.
+    #[inline]
+    pub(crate) fn is_sound(&self) -> bool {
+        let directed = self.d.x != 0.0 || self.d.y != 0.0 || self.d.z != 0.0;
+        self.o.is_finite() && self.d.is_finite() && directed && self.t_max > self.t_min
+    }
+}
+
+/// Where a ray met an object.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Parameter of the ray.
+    pub t: Real,
+    /// On a triangle the barycentric coordinate of vertex 1; 0 on spheres and planes.
+    pub u: Real,
+    /// On a triangle the barycentric coordinate of vertex 2; 0 on spheres and planes.
+    pub v: Real,
+    /// Index of the object in the list given to [`Accel::build`](crate::Accel::build).
+    pub object: u32,
+    /// Index of the triangle in its mesh; 0 on spheres and planes.
+    pub primitive: u32,
+}

@@ -1,0 +1,359 @@
+//! The traversal itself, over abstract lanes.
+//!
+//! Box test: Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013 (the far distances are enlarged by
+//! 1 + 2γ₃, so that rounding cannot lose a box). Triangle test: Woop, Benthin, Wald, "Watertight
+//! Ray/Triangle Intersection", JCGT 2(1), 2013; an edge function of exactly 0 counts as inside on
+//! both sides, so no fallback to double precision is needed for watertightness.
+
+use super::raw::{Stack, block_at, node_at, place};
+use crate::wide::{Block, Child, Node};
+use indigo_math::Float;
+
+/// Entries of the traversal stack; a tree that could need more is not traversed but rebuilt.
+pub(crate) const STACK_SIZE: usize = 640;
+
+/// A scalar of which the order of non-negative values is the order of the upper bits.
+pub(crate) trait KeyBits: Float {
+    /// The number's leading 32 bits, rounding towards 0.
+    fn to_key(self) -> u32;
+    /// The number of those leading bits.
+    fn from_key(key: u32) -> Self;
+    /// The enlargement 1 + 2γ₃ of far box distances.
+    const ENLARGE: Self;
+}
+
+impl KeyBits for f32 {
+    const ENLARGE: Self = 1.0 + 3.0 * f32::EPSILON;
+    #[inline(always)]
+    fn to_key(self) -> u32 {
+        self.to_bits()
+    }
+    #[inline(always)]
+    fn from_key(key: u32) -> Self {
+        Self::from_bits(key)
+    }
+}
+
+impl KeyBits for f64 {
+    const ENLARGE: Self = 1.0 + 3.0 * f64::EPSILON;
+    #[inline(always)]
+    fn to_key(self) -> u32 {
+        (self.to_bits() >> 32) as u32
+    }
+    #[inline(always)]
+    fn from_key(key: u32) -> Self {
+        Self::from_bits(u64::from(key) << 32)
+    }
+}
+
+/// Eight numbers side by side. Comparisons give one bit a lane, and false where a lane is NaN.
+pub(crate) trait Lanes: Copy {
+    /// One lane.
+    type Scalar: KeyBits;
+    /// The same number in all lanes.
+    fn splat(v: Self::Scalar) -> Self;
+    /// Eight numbers of a node or block.
+    fn load(v: &[f32; 8]) -> Self;
+    /// The lanes as an array.
+    fn to_array(self) -> [Self::Scalar; 8];
+    /// Lane by lane sum.
+    fn add(self, b: Self) -> Self;
+    /// Lane by lane difference.
+    fn sub(self, b: Self) -> Self;
+    /// Lane by lane product.
+    fn mul(self, b: Self) -> Self;
+    /// Lane by lane quotient.
+    fn div(self, b: Self) -> Self;
+    /// The lesser; `b` where either is NaN.
+    fn min(self, b: Self) -> Self;
+    /// The greater; `b` where either is NaN.
+    fn max(self, b: Self) -> Self;
+    /// Lanes where `self <= b`.
+    fn le(self, b: Self) -> u32;
+    /// Lanes where `self < b`.
+    fn lt(self, b: Self) -> u32;
+}
+
+/// A ray in the kernel's scalar. All components finite, `t_min >= 0`.
+#[derive(Clone, Copy)]
+pub(crate) struct KernelRay<T> {
+    /// Origin.
+    pub o: [T; 3],
+    /// Direction.
+    pub d: [T; 3],
+    /// Hits at or before this do not count.
+    pub t_min: T,
+}
+
+/// The best hit so far.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RawHit<T> {
+    /// Parameter of the ray; at first the ray's `t_max`.
+    pub t: T,
+    /// Barycentric coordinate of vertex 1.
+    pub u: T,
+    /// Barycentric coordinate of vertex 2.
+    pub v: T,
+    /// Triangle number in its tree.
+    pub id: u32,
+    /// The object, where it is not of the baked tree; else [`RawHit::BAKED`].
+    pub object: u32,
+}
+
+impl<T: Float> RawHit<T> {
+    /// The object of triangles in the baked tree, which are told apart afterwards.
+    pub(crate) const BAKED: u32 = u32::MAX;
+
+    /// No hit before `t_max` yet.
+    pub(crate) fn none(t_max: T) -> Self {
+        Self { t: t_max, u: T::ZERO, v: T::ZERO, id: u32::MAX, object: Self::BAKED }
+    }
+}
+
+/// The nodes and blocks of all trees. Every child of a node and every leaf below a root in use lies
+/// inside them: builders make it so, and the cache checks it.
+#[derive(Clone, Copy)]
+pub(crate) struct View<'a> {
+    /// All nodes.
+    pub nodes: &'a [Node],
+    /// All blocks.
+    pub blocks: &'a [Block],
+}
+
+/// What the leaves without triangles stand for.
+pub(crate) trait Specials<T> {
+    /// Whether there are any.
+    const PRESENT: bool;
+    /// Tests one; changes `hit` where it is met before `hit.t` and says so.
+    fn test<const ANY: bool>(&self, number: u32, hit: &mut RawHit<T>) -> bool;
+}
+
+/// What the box test needs of a ray.
+struct BoxTest<L> {
+    origin: [L; 3],
+    inverse: [L; 3],
+    /// Rows of `Node::bounds` that the ray enters first, an axis each.
+    near: [usize; 3],
+    t_min: L,
+    enlarge: L,
+}
+
+impl<L: Lanes> BoxTest<L> {
+    #[inline(always)]
+    fn new(ray: &KernelRay<L::Scalar>) -> Self {
+        // 1 / 0 is infinite on purpose: a slab is then entered at ±∞ or, where the origin lies on
+        // one of its planes, at NaN, which min and max below ignore (the slab does not bound the ray).
+        let inverse = ray.d.map(|d| L::Scalar::ONE / d);
+        Self {
+            origin: ray.o.map(L::splat),
+            inverse: inverse.map(L::splat),
+            near: std::array::from_fn(|i| 2 * i + usize::from(inverse[i] < L::Scalar::ZERO)),
+            t_min: L::splat(ray.t_min),
+            enlarge: L::splat(L::Scalar::ENLARGE),
+        }
+    }
+
+    /// Distances at which the eight boxes are entered, and which of them are met before `t_max`.
+    #[inline(always)]
+    fn test(&self, node: &Node, t_max: L) -> (L, u32) {
+        let at = |axis: usize, row: usize| {
+            L::load(place(&node.bounds, row)).sub(self.origin[axis]).mul(self.inverse[axis])
+        };
+        let [nx, ny, nz] = self.near;
+        let enter = at(0, nx).max(at(1, ny)).max(at(2, nz).max(self.t_min));
+        let leave = at(0, nx ^ 1).min(at(1, ny ^ 1)).min(at(2, nz ^ 1)).mul(self.enlarge).min(t_max);
+        (enter, enter.le(leave))
+    }
+}
+
+/// What the triangle test needs of a ray: axes permuted so that z is the direction's largest, and
+/// the shear that takes the direction onto that axis.
+struct TriangleTest<L> {
+    axes: [usize; 3],
+    origin: [L; 3],
+    shear: [L; 2],
+    scale: L,
+    t_min: L,
+}
+
+/// Lanes of one block that were met.
+struct BlockHits<L> {
+    t: L,
+    u: L,
+    v: L,
+    mask: u32,
+}
+
+impl<L: Lanes> TriangleTest<L> {
+    #[inline(always)]
+    fn new(ray: &KernelRay<L::Scalar>) -> Self {
+        let [x, y, z] = ray.d.map(Float::abs);
+        let axes = if x >= y && x >= z {
+            [1, 2, 0]
+        } else if y >= z {
+            [2, 0, 1]
+        } else {
+            [0, 1, 2]
+        };
+        let [kx, ky, kz] = axes;
+        let scale = L::Scalar::ONE / ray.d[kz];
+        Self {
+            axes,
+            origin: axes.map(|k| L::splat(ray.o[k])),
+            shear: [L::splat(ray.d[kx] / ray.d[kz]), L::splat(ray.d[ky] / ray.d[kz])],
+            scale: L::splat(scale),
+            t_min: L::splat(ray.t_min),
+        }
+    }
+
+    /// A corner of eight triangles in the ray's sheared frame.
+    #[inline(always)]
+    fn sheared(&self, corner: &[[f32; 8]; 3]) -> [L; 3] {
+        let at = |i: usize| L::load(place(corner, self.axes[i])).sub(self.origin[i]);
+        let z = at(2);
+        [at(0).sub(self.shear[0].mul(z)), at(1).sub(self.shear[1].mul(z)), z]
+    }
+
+    #[inline(always)]
+    fn test(&self, block: &Block, t_max: L) -> BlockHits<L> {
+        let zero = L::splat(L::Scalar::ZERO);
+        let [ax, ay, az] = self.sheared(&block.corners[0]);
+        let [bx, by, bz] = self.sheared(&block.corners[1]);
+        let [cx, cy, cz] = self.sheared(&block.corners[2]);
+        // Without fused operations each edge function is the exact negative of its neighbour's.
+        let u = cx.mul(by).sub(cy.mul(bx));
+        let v = ax.mul(cy).sub(ay.mul(cx));
+        let w = bx.mul(ay).sub(by.mul(ax));
+        let mask = zero.le(u.min(v).min(w)) | u.max(v).max(w).le(zero);
+        if mask == 0 {
+            return BlockHits { t: zero, u: zero, v: zero, mask };
+        }
+        let r = L::splat(L::Scalar::ONE).div(u.add(v).add(w));
+        let t = u.mul(az).add(v.mul(bz).add(w.mul(cz))).mul(self.scale).mul(r);
+        BlockHits { t, u: v.mul(r), v: w.mul(r), mask: mask & self.t_min.lt(t) & t.lt(t_max) }
+    }
+}
+
+/// The kernel; see [`Kernel::walk`](super::Kernel::walk).
+#[inline(always)]
+pub(super) fn walk<L: Lanes, const ANY: bool, S: Specials<L::Scalar>>(
+    view: View,
+    root: Child,
+    ray: &KernelRay<L::Scalar>,
+    hit: &mut RawHit<L::Scalar>,
+    specials: &S,
+) -> bool {
+    let boxes = BoxTest::<L>::new(ray);
+    let triangles = TriangleTest::<L>::new(ray);
+    let mut t_max = L::splat(hit.t);
+    let mut stack = Stack::<STACK_SIZE>::new();
+    let mut found = false;
+    let mut current = root;
+    loop {
+        let mut alive = true;
+        while !current.is_leaf() {
+            let node = node_at(view.nodes, current);
+            let (enter, mask) = boxes.test(node, t_max);
+            if mask == 0 {
+                alive = false;
+                break;
+            }
+            current = descend::<L, ANY>(node, enter, mask, &mut stack);
+        }
+        if alive {
+            let changed = if S::PRESENT && current.blocks() == 0 {
+                specials.test::<ANY>(current.first(), hit)
+            } else {
+                test_leaf::<L, ANY>(view, current, &triangles, t_max, hit)
+            };
+            if changed {
+                if ANY {
+                    return true;
+                }
+                found = true;
+                t_max = L::splat(hit.t);
+            }
+        }
+        loop {
+            let Some(entry) = stack.pop() else { return found };
+            if ANY || L::Scalar::from_key((entry >> 32) as u32) < hit.t {
+                current = Child(entry as u32);
+                break;
+            }
+        }
+    }
+}
+
+/// Picks the child to go on with and puts the others on the stack, the nearest on top.
+#[inline(always)]
+fn descend<L: Lanes, const ANY: bool>(
+    node: &Node,
+    enter: L,
+    mask: u32,
+    stack: &mut Stack<STACK_SIZE>,
+) -> Child {
+    let first = mask.trailing_zeros() as usize;
+    let mut rest = mask & (mask - 1);
+    let child = |i: usize| place(&node.children, i);
+    if rest == 0 {
+        return *child(first);
+    }
+    if ANY {
+        while rest != 0 {
+            stack.push(u64::from(child(rest.trailing_zeros() as usize).0));
+            rest &= rest - 1;
+        }
+        return *child(first);
+    }
+    let distances = enter.to_array();
+    let entry = |i: usize| u64::from(place(&distances, i).to_key()) << 32 | u64::from(child(i).0);
+    let (a, b) = (entry(first), entry(rest.trailing_zeros() as usize));
+    rest &= rest - 1;
+    let (nearer, farther) = if a < b { (a, b) } else { (b, a) };
+    stack.push(farther);
+    if rest == 0 {
+        return Child(nearer as u32);
+    }
+    let base = stack.len() - 1;
+    stack.push(nearer);
+    while rest != 0 {
+        stack.insert_descending(base, entry(rest.trailing_zeros() as usize));
+        rest &= rest - 1;
+    }
+    Child(stack.pop().unwrap_or(nearer) as u32)
+}
+
+/// Tests the blocks of a leaf against what the ray has met so far.
+#[inline(always)]
+fn test_leaf<L: Lanes, const ANY: bool>(
+    view: View,
+    leaf: Child,
+    triangles: &TriangleTest<L>,
+    mut t_max: L,
+    hit: &mut RawHit<L::Scalar>,
+) -> bool {
+    let mut changed = false;
+    for i in 0..leaf.blocks() {
+        let block = block_at(view.blocks, leaf, i);
+        let hits = triangles.test(block, t_max);
+        if hits.mask == 0 {
+            continue;
+        }
+        changed = true;
+        if ANY {
+            break;
+        }
+        let (t, u, v) = (hits.t.to_array(), hits.u.to_array(), hits.v.to_array());
+        let mut mask = hits.mask;
+        while mask != 0 {
+            let lane = mask.trailing_zeros() as usize;
+            mask &= mask - 1;
+            if *place(&t, lane) < hit.t {
+                let (t, u, v) = (*place(&t, lane), *place(&u, lane), *place(&v, lane));
+                *hit = RawHit { t, u, v, id: *place(&block.ids, lane), object: RawHit::<L::Scalar>::BAKED };
+            }
+        }
+        t_max = L::splat(hit.t);
+    }
+    changed
+}

@@ -1,0 +1,186 @@
+//! The trees of a scene: the baked one, those of instanced meshes, and the upper one over both.
+
+use crate::accel::{BuildError, BuildOptions, Stats};
+use crate::cache::load_or_build;
+use crate::mesh::TriangleMesh;
+use crate::object::Object;
+use crate::soup::{Soup, bake};
+use crate::store::TreeStore;
+use crate::top::{TopItem, build_top, open, sphere_box, transformed_box};
+use crate::wide::{Block, Box3, Child, Node};
+
+/// What a leaf without triangles stands for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Special {
+    /// The object.
+    pub object: u32,
+    /// The root of its mesh's tree; nothing for a sphere.
+    pub root: Child,
+}
+
+/// All trees behind each other.
+pub(crate) struct Trees {
+    /// Nodes of all trees, the upper one last.
+    pub nodes: Vec<Node>,
+    /// Triangles of all trees.
+    pub blocks: Vec<Block>,
+    /// Where rays begin; [`Child::NONE`] where there is no tree.
+    pub root: Child,
+    /// Box round the root.
+    pub bounds: Box3,
+    /// Instances and spheres, by the number in their leaf.
+    pub specials: Vec<Special>,
+    /// Objects that are planes.
+    pub planes: Vec<u32>,
+    /// Counts; those of shapes and meshes are left at 0.
+    pub stats: Stats,
+    /// For each mesh whether it has a tree of its own.
+    pub is_instanced: Vec<bool>,
+    /// First triangle of each baked object in the baked tree, ascending, and the object.
+    baked: Vec<(u32, u32)>,
+}
+
+impl Trees {
+    /// Builds or loads what the objects need.
+    pub(crate) fn build(
+        meshes: &[TriangleMesh],
+        objects: &[Object],
+        options: &BuildOptions,
+        store: &dyn TreeStore,
+    ) -> Result<Self, BuildError> {
+        let plan = Plan::new(meshes, objects, options);
+        plan.check(meshes, objects)?;
+        let mut trees = Self::empty();
+        let (soup, owners) = bake(meshes, objects, &plan.baked);
+        trees.baked = owners;
+        let (baked_root, baked_bounds) = trees.add(&soup, options, store);
+        drop(soup);
+        let mut roots = vec![(Child::NONE, Box3::EMPTY); meshes.len()];
+        for &mesh in &plan.instanced {
+            roots[mesh as usize] = trees.add(&Soup::of(&meshes[mesh as usize]), options, store);
+        }
+        let mut items = trees.special_items(objects, &plan, &roots);
+        (trees.root, trees.bounds) = (baked_root, baked_bounds);
+        if !items.is_empty() {
+            if baked_root != Child::NONE {
+                items.extend(open(baked_root, baked_bounds, &trees.nodes));
+            }
+            (trees.root, trees.bounds) = build_top(&items, &mut trees.nodes);
+        }
+        trees.is_instanced = plan.is_instanced;
+        trees.stats.tree_bytes = size_of_val(trees.nodes.as_slice()) + size_of_val(trees.blocks.as_slice());
+        Ok(trees)
+    }
+
+    fn empty() -> Self {
+        Self {
+            nodes: Vec::new(),
+            blocks: Vec::new(),
+            root: Child::NONE,
+            bounds: Box3::EMPTY,
+            specials: Vec::new(),
+            planes: Vec::new(),
+            stats: Stats::default(),
+            is_instanced: Vec::new(),
+            baked: Vec::new(),
+        }
+    }
+
+    /// The object and the triangle of its mesh that a triangle of the baked tree belongs to.
+    #[inline]
+    pub(crate) fn baked_owner(&self, triangle: u32) -> (u32, u32) {
+        let behind = self.baked.partition_point(|&(first, _)| first <= triangle);
+        let (first, object) = self.baked[behind - 1];
+        (object, triangle - first)
+    }
+
+    /// Adds the tree of some triangles; returns its root and box.
+    fn add(&mut self, soup: &Soup, options: &BuildOptions, store: &dyn TreeStore) -> (Child, Box3) {
+        let (tree, skipped, loaded) = load_or_build(soup, options.builder_for(soup.triangles.len()), store);
+        self.stats.triangles += soup.triangles.len() - skipped;
+        self.stats.skipped_triangles += skipped;
+        self.stats.trees_loaded += usize::from(loaded);
+        if self.nodes.is_empty() && self.blocks.is_empty() {
+            (self.nodes, self.blocks) = (tree.nodes, tree.blocks);
+            return (tree.root, tree.bounds);
+        }
+        let (n, b) = (self.nodes.len(), self.blocks.len());
+        let moved = |node: &Node| Node { children: node.children.map(|c| c.moved(n, b)), ..*node };
+        self.nodes.extend(tree.nodes.iter().map(moved));
+        self.blocks.extend(tree.blocks);
+        (tree.root.moved(n, b), tree.bounds)
+    }
+
+    /// The instances and spheres as things of the upper tree; notes the planes.
+    fn special_items(&mut self, objects: &[Object], plan: &Plan, roots: &[(Child, Box3)]) -> Vec<TopItem> {
+        let mut items = Vec::new();
+        for (i, object) in objects.iter().enumerate() {
+            let object_id = i as u32;
+            let (root, bounds) = match object {
+                Object::Plane { .. } => {
+                    self.planes.push(object_id);
+                    continue;
+                }
+                Object::Sphere { center, radius } => (Child::NONE, sphere_box(*center, *radius)),
+                Object::Mesh { mesh, transform } => {
+                    let (root, bounds) = roots[*mesh as usize];
+                    if plan.is_baked(*mesh) || root == Child::NONE {
+                        continue;
+                    }
+                    self.stats.instances += 1;
+                    (root, transformed_box(&bounds, transform))
+                }
+            };
+            items.push(TopItem { bounds, child: Child::special(self.specials.len() as u32) });
+            self.specials.push(Special { object: object_id, root });
+        }
+        items
+    }
+}
+
+/// Which meshes are baked and which are shared.
+struct Plan {
+    /// Objects to bake.
+    baked: Vec<u32>,
+    /// Meshes to build in their own space.
+    instanced: Vec<u32>,
+    is_instanced: Vec<bool>,
+}
+
+impl Plan {
+    fn new(meshes: &[TriangleMesh], objects: &[Object], options: &BuildOptions) -> Self {
+        let mut uses = vec![0usize; meshes.len()];
+        let mesh_of =
+            |o: &Object| if let Object::Mesh { mesh, .. } = o { Some(*mesh as usize) } else { None };
+        objects.iter().filter_map(mesh_of).for_each(|m| uses[m] += 1);
+        let is_instanced: Vec<bool> = meshes
+            .iter()
+            .zip(&uses)
+            .map(|(m, &n)| n > 1 && m.triangles().len().saturating_mul(n) > options.bake_limit)
+            .collect();
+        let is_baked = |o: &Object| mesh_of(o).is_some_and(|m| !is_instanced[m]);
+        Self {
+            baked: (0..objects.len() as u32).filter(|&o| is_baked(&objects[o as usize])).collect(),
+            instanced: (0..meshes.len() as u32).filter(|&m| is_instanced[m as usize]).collect(),
+            is_instanced,
+        }
+    }
+
+    /// All trees share one array of nodes and one of blocks, which are numbered in few bits.
+    fn check(&self, meshes: &[TriangleMesh], objects: &[Object]) -> Result<(), BuildError> {
+        let baked = self.baked.iter().filter_map(|&o| match objects[o as usize] {
+            Object::Mesh { mesh, .. } => Some(mesh),
+            _ => None,
+        });
+        let sizes = |m: u32| (meshes[m as usize].triangles().len(), meshes[m as usize].positions().len());
+        let all = baked.chain(self.instanced.iter().copied()).map(sizes);
+        let (triangles, vertices) = all.fold((0, 0), |(t, v), (dt, dv)| (t + dt, v + dv));
+        let largest = TriangleMesh::MAX_TRIANGLES;
+        let fits = triangles <= largest && u32::try_from(vertices).is_ok();
+        if fits { Ok(()) } else { Err(BuildError::TooLarge(triangles.max(vertices))) }
+    }
+
+    fn is_baked(&self, mesh: u32) -> bool {
+        !self.is_instanced[mesh as usize]
+    }
+}
