@@ -62,6 +62,7 @@ impl Image {
     }
 
     /// The image of means over blocks of `size` x `size` pixels (smaller at the right and bottom).
+    #[must_use]
     pub fn block_means(&self, size: usize) -> Self {
         let size = size.max(1);
         let (width, height) = (self.width.div_ceil(size), self.height.div_ceil(size));

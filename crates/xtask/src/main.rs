@@ -1,2 +1,115 @@
-//! placeholder
-fn main() {}
+//! All automation of the project: `cargo xtask help`.
+//!
+//! Written in Rust rather than in a shell or a make language, so that whoever can build Indigo can run
+//! it, and everything here is checked by the same compiler, linter and tests.
+
+mod bench;
+mod bench_rays;
+mod documents;
+mod fuzz;
+mod generate;
+mod process;
+mod scenes;
+mod stages;
+mod tidy;
+mod venv;
+
+use std::process::ExitCode;
+
+/// What a command gives back: nothing, or one message for the person at the terminal.
+type Outcome = Result<(), String>;
+
+/// A command: how it is called, what it is for, what runs it.
+struct Command {
+    name: &'static str,
+    arguments: &'static str,
+    about: &'static str,
+    run: fn(&[String]) -> Outcome,
+}
+
+const COMMANDS: &[Command] = &[
+    Command {
+        name: "test",
+        arguments: "[--full] [FILTER]",
+        about: "everything a change must pass; with FILTER only the tests whose name has it",
+        run: stages::test,
+    },
+    Command { name: "fmt", arguments: "", about: "format all Rust code", run: stages::format },
+    Command {
+        name: "lint",
+        arguments: "",
+        about: "clippy over the workspace; warnings are errors",
+        run: stages::lint,
+    },
+    Command {
+        name: "tidy",
+        arguments: "",
+        about: "the rules of ARCHITECTURE.md that no compiler checks",
+        run: tidy::run,
+    },
+    Command {
+        name: "gen",
+        arguments: "[--check]",
+        about: "write what is generated from the declarations, or check that it is up to date",
+        run: generate::run,
+    },
+    Command {
+        name: "scenes",
+        arguments: "million|embedded|instances|all",
+        about: "write the big test scenes into testscenes/generated",
+        run: scenes::run,
+    },
+    Command {
+        name: "bench",
+        arguments: "rays|CRATE [ARGUMENTS]",
+        about: "benchmarks: the race against Embree, or those of one crate",
+        run: bench::run,
+    },
+    Command {
+        name: "fuzz",
+        arguments: "[SECONDS]",
+        about: "feed damaged files to every reader, SECONDS each target (default 60)",
+        run: fuzz::run,
+    },
+    Command {
+        name: "doc",
+        arguments: "[--open]",
+        about: "the API documentation; warnings are errors",
+        run: documents::run,
+    },
+    Command { name: "help", arguments: "", about: "this list", run: help },
+];
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let Some((name, rest)) = arguments.split_first() else {
+        print_help();
+        return ExitCode::from(2);
+    };
+    let wanted = if matches!(name.as_str(), "--help" | "-h") { "help" } else { name };
+    let Some(command) = COMMANDS.iter().find(|command| command.name == wanted) else {
+        eprintln!("xtask: no command `{name}`");
+        print_help();
+        return ExitCode::from(2);
+    };
+    match (command.run)(rest) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("xtask {wanted}: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+#[allow(clippy::unnecessary_wraps)] // the shape that every command has
+fn help(_: &[String]) -> Outcome {
+    print_help();
+    Ok(())
+}
+
+fn print_help() {
+    println!("cargo xtask COMMAND\n");
+    for command in COMMANDS {
+        println!("  {:<42} {}", format!("{} {}", command.name, command.arguments), command.about);
+    }
+}

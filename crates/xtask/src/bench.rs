@@ -1,0 +1,15 @@
+//! `cargo xtask bench`: measurements. Their numbers gate nothing; only ratios taken in one process do.
+
+use crate::{Outcome, bench_rays, process};
+
+/// `rays` races our ray kernel against Embree; any other word is a crate whose benchmarks are run.
+pub fn run(arguments: &[String]) -> Outcome {
+    match arguments.split_first() {
+        None => Err("usage: cargo xtask bench rays|CRATE [ARGUMENTS]".into()),
+        Some((name, rest)) if name == "rays" => bench_rays::run(rest),
+        Some((name, rest)) => {
+            let package = format!("indigo-{}", name.trim_start_matches("indigo-"));
+            process::run(process::cargo(&["bench", "-p", &package, "--benches", "--"]).args(rest))
+        }
+    }
+}

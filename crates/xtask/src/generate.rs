@@ -1,0 +1,68 @@
+//! `cargo xtask gen`: files that are written from the scene's declarations.
+
+use std::path::Path;
+
+use crate::Outcome;
+use crate::process::{self, capture, cargo};
+
+/// A generated file and the example program that prints it.
+struct Generated {
+    path: &'static str,
+    package: &'static str,
+    example: &'static str,
+}
+
+const GENERATED: &[Generated] =
+    &[Generated { path: "docs/manual/scene-format.md", package: "indigo-scene", example: "reference" }];
+
+/// Writes every generated file, or with `--check` only says which would change.
+pub fn run(arguments: &[String]) -> Outcome {
+    let check = match arguments {
+        [] => false,
+        [flag] if flag == "--check" => true,
+        _ => return Err("usage: cargo xtask gen [--check]".into()),
+    };
+    let mut stale = Vec::new();
+    for file in GENERATED {
+        let text = capture(&mut cargo(&["run", "-q", "-p", file.package, "--example", file.example]))?;
+        let path = process::root().join(file.path);
+        if up_to_date(&path, &text) {
+            println!("{} is up to date", file.path);
+        } else if check {
+            stale.push(file.path);
+        } else {
+            write(&path, &text)?;
+            println!("{} written", file.path);
+        }
+    }
+    if stale.is_empty() { Ok(()) } else { Err(format!("stale: {}; run `cargo xtask gen`", stale.join(", "))) }
+}
+
+/// Whether the file holds this text; line ends that git rewrote on checkout do not count.
+fn up_to_date(path: &Path, text: &[u8]) -> bool {
+    let plain = |bytes: &[u8]| bytes.iter().copied().filter(|&byte| byte != b'\r').collect::<Vec<_>>();
+    std::fs::read(path).is_ok_and(|current| plain(&current) == plain(text))
+}
+
+fn write(path: &Path, text: &[u8]) -> Outcome {
+    let failed = |error: std::io::Error| format!("{}: {error}", path.display());
+    if let Some(folder) = path.parent() {
+        std::fs::create_dir_all(folder).map_err(failed)?;
+    }
+    std::fs::write(path, text).map_err(failed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_a_changed_text_is_stale() {
+        let path = process::target_dir().join(format!("xtask-generate-{}.md", std::process::id()));
+        write(&path, b"one\r\ntwo\r\n").unwrap();
+        assert!(up_to_date(&path, b"one\ntwo\n"));
+        assert!(!up_to_date(&path, b"one\nthree\n"));
+        std::fs::remove_file(&path).unwrap();
+        assert!(!up_to_date(&path, b"one\ntwo\n"));
+    }
+}

@@ -1,0 +1,170 @@
+//! `cargo xtask test` and the stages it is made of.
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use crate::process::{cargo, run};
+use crate::{Outcome, documents, fuzz, generate, tidy, venv};
+
+/// Where tests find the Python that has the packages of [`venv::for_tests`].
+const TEST_PYTHON: &str = "INDIGO_TEST_PYTHON";
+/// Seconds per fuzz target in the full run.
+const FULL_FUZZ_SECONDS: &str = "60";
+
+/// `cargo xtask fmt`.
+pub fn format(_: &[String]) -> Outcome {
+    run(&mut cargo(&["fmt", "--all"]))
+}
+
+/// `cargo xtask lint`. With the test profile, so that the dependencies are checked once for both.
+pub fn lint(_: &[String]) -> Outcome {
+    run(&mut cargo(&["clippy", "--workspace", "--all-targets", "--profile", "test", "--", "-D", "warnings"]))
+}
+
+/// `cargo xtask test`: every stage runs, whatever became of those before it; then a summary.
+pub fn test(arguments: &[String]) -> Outcome {
+    let (flags, filters): (Vec<&String>, Vec<&String>) = arguments.iter().partition(|a| a.starts_with('-'));
+    if flags.iter().any(|flag| *flag != "--full") || filters.len() > 1 {
+        return Err("usage: cargo xtask test [--full] [FILTER]".into());
+    }
+    let mut report = Report::default();
+    if let Some(filter) = filters.first() {
+        report.stage("tests", || tests(Some(filter)));
+    } else {
+        report.stage("format", || run(&mut cargo(&["fmt", "--all", "--check"])));
+        report.stage("tidy", || tidy::run(&[]));
+        report.stage("lint", || lint(&[]));
+        report.stage("tests", || tests(None));
+        report.stage("generated files", || generate::run(&["--check".into()]));
+        report.stage("documentation", || documents::run(&[]));
+    }
+    if !flags.is_empty() {
+        full(&mut report);
+    }
+    report.finish()
+}
+
+/// All unit, integration and documentation tests, with what they need installed first.
+fn tests(filter: Option<&str>) -> Outcome {
+    let python = venv::for_tests()?;
+    cargo_test(&["--workspace"], filter, &python)
+}
+
+fn cargo_test(selection: &[&str], filter: Option<&str>, python: &Path) -> Outcome {
+    let mut command = cargo(&["test", "--no-fail-fast"]);
+    run(command.args(selection).args(filter).env(TEST_PYTHON, python))
+}
+
+/// What a release needs beyond every change: the other lane counts, the double-precision oracle and
+/// minutes of fuzzing.
+fn full(report: &mut Report) {
+    for variant in VARIANTS {
+        report.stage(variant.about, || variant.test());
+    }
+    report.stage("fuzzing", || fuzz::run(&[FULL_FUZZ_SECONDS.into()]));
+}
+
+/// The kernel built differently.
+struct Variant {
+    about: &'static str,
+    package: &'static str,
+    feature: &'static str,
+    /// Crates whose tests are run under it: those that hold kernel code.
+    crates: &'static [&'static str],
+}
+
+const SPECTRAL: &[&str] = &[
+    "indigo-spectrum",
+    "indigo-texture",
+    "indigo-scatter",
+    "indigo-light",
+    "indigo-camera",
+    "indigo-transport",
+];
+
+const VARIANTS: &[Variant] = &[
+    Variant { about: "one lane", package: "indigo-spectrum", feature: "lanes-1", crates: SPECTRAL },
+    Variant { about: "eight lanes", package: "indigo-spectrum", feature: "lanes-8", crates: SPECTRAL },
+    Variant {
+        about: "double precision",
+        package: "indigo-math",
+        feature: "f64",
+        crates: &["indigo-math", "indigo-scatter", "indigo-transport"],
+    },
+];
+
+impl Variant {
+    fn test(&self) -> Outcome {
+        let feature = format!("{}/{}", self.package, self.feature);
+        let mut selection = vec!["--package", self.package];
+        for name in self.crates.iter().filter(|name| **name != self.package) {
+            selection.extend(["--package", name]);
+        }
+        selection.extend(["--features", &feature]);
+        cargo_test(&selection, None, &venv::for_tests()?)
+    }
+}
+
+/// Results and times of the stages.
+#[derive(Default)]
+struct Report {
+    stages: Vec<(String, Duration, Outcome)>,
+}
+
+impl Report {
+    fn stage(&mut self, name: &str, work: impl FnOnce() -> Outcome) {
+        println!("\n== {name}");
+        let start = Instant::now();
+        let outcome = work();
+        if let Err(message) = &outcome {
+            eprintln!("{name}: {message}");
+        }
+        self.stages.push((name.to_string(), start.elapsed(), outcome));
+    }
+
+    fn finish(&self) -> Outcome {
+        println!("\n== summary");
+        for (name, time, outcome) in &self.stages {
+            let verdict = if outcome.is_ok() { "ok" } else { "FAILED" };
+            println!("{name:<20} {verdict:<7} {:>7.1} s", time.as_secs_f64());
+        }
+        let total: Duration = self.stages.iter().map(|(_, time, _)| *time).sum();
+        let failed: Vec<&str> = self
+            .stages
+            .iter()
+            .filter(|(_, _, outcome)| outcome.is_err())
+            .map(|(name, ..)| name.as_str())
+            .collect();
+        println!("{:<28} {:>7.1} s", "total", total.as_secs_f64());
+        if failed.is_empty() {
+            println!("all {} stages passed", self.stages.len());
+            Ok(())
+        } else {
+            Err(format!("failed: {}", failed.join(", ")))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_failed_stage_does_not_stop_the_others_and_is_named() {
+        let mut report = Report::default();
+        let mut ran = false;
+        report.stage("first", || Err("broken".into()));
+        report.stage("second", || {
+            ran = true;
+            Ok(())
+        });
+        assert!(ran);
+        assert_eq!(report.finish().unwrap_err(), "failed: first");
+    }
+
+    #[test]
+    fn unknown_options_are_refused_before_anything_runs() {
+        assert!(test(&["--fast".into()]).unwrap_err().contains("usage"));
+        assert!(test(&["a".into(), "b".into()]).unwrap_err().contains("usage"));
+    }
+}

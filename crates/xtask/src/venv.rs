@@ -1,0 +1,34 @@
+//! A Python environment under the build folder, for tests that let other programs judge our files.
+
+use std::path::PathBuf;
+
+use crate::process::{self, command};
+
+/// What the tests import. OpenEXR, the reference implementation, reads back our EXR files. Pinned: a
+/// new version may change what a test sees only by a commit here.
+const TEST_PACKAGES: &[&str] = &["OpenEXR==3.4.4", "numpy==2.3.5"];
+
+/// The environment of the tests, made on first use; gives its Python.
+pub fn for_tests() -> Result<PathBuf, String> {
+    ensure("venv", TEST_PACKAGES)
+}
+
+/// An environment `name` under the build folder with these packages; gives its Python.
+///
+/// A file beside it records what is installed, so that a second call does nothing.
+fn ensure(name: &str, packages: &[&str]) -> Result<PathBuf, String> {
+    let folder = process::target_dir().join(name);
+    let python = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
+    let record = folder.join("installed.txt");
+    let wanted = packages.join("\n");
+    if python.exists() && std::fs::read_to_string(&record).is_ok_and(|installed| installed == wanted) {
+        return Ok(python);
+    }
+    let system = if cfg!(windows) { "python" } else { "python3" };
+    process::run(command(system, &["-m", "venv"]).arg(&folder))
+        .map_err(|error| format!("{error} (on Debian and Ubuntu: apt-get install python3-venv)"))?;
+    let quiet = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check"];
+    process::run(command(&python, &quiet).args(packages))?;
+    std::fs::write(&record, wanted).map_err(|error| format!("{}: {error}", record.display()))?;
+    Ok(python)
+}
