@@ -24,3 +24,5 @@ pub const OUT_OF_RANGE: &str = "E0203";
 pub const WRONG_ALTERNATIVE: &str = "E0204";
 /// A known element that this version cannot render yet.
 pub const NOT_RENDERED: &str = "E0205";
+/// A choice of a later version of the format, for which nothing can stand in.
+pub const LATER_ALTERNATIVE: &str = "E0206";

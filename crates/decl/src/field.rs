@@ -13,6 +13,8 @@ pub struct Block {
     pub fields: &'static [Field],
     /// Children of which exactly one must be present.
     pub alternatives: Option<Alternatives>,
+    /// Groups of fields of which at least one must be given.
+    pub needs: &'static [Group],
     /// Children of later versions of the format: warned of by name and ignored.
     pub later: &'static [Later],
     /// Children of old exporters without meaning any more: warned of and ignored.
@@ -24,13 +26,29 @@ pub struct Block {
 impl Block {
     /// A block of a name and fields, to be completed with struct update syntax.
     pub const fn new(name: &'static str, doc: &'static str, fields: &'static [Field]) -> Self {
-        Self { name, aliases: &[], doc, fields, alternatives: None, later: &[], ignored: &[], example: "" }
+        Self {
+            name,
+            aliases: &[],
+            doc,
+            fields,
+            alternatives: None,
+            needs: &[],
+            later: &[],
+            ignored: &[],
+            example: "",
+        }
     }
 
     /// The same block with alternatives.
     #[must_use]
     pub const fn with_alternatives(self, alternatives: Alternatives) -> Self {
         Self { alternatives: Some(alternatives), ..self }
+    }
+
+    /// The same block with groups of fields that it needs one of.
+    #[must_use]
+    pub const fn with_needs(self, needs: &'static [Group]) -> Self {
+        Self { needs, ..self }
     }
 
     /// The same block with elements of later versions.
@@ -74,6 +92,36 @@ pub struct Alternatives {
     pub optional: bool,
     /// The one whose fields may also stand directly in the parent, if any (an old form).
     pub implied: Option<&'static Block>,
+    /// Choices of later versions of the format: an error by name, since nothing can stand in for them.
+    pub later: &'static [Later],
+}
+
+impl Alternatives {
+    /// Exactly one of some blocks, to be completed with struct update syntax.
+    pub const fn new(what: &'static str, blocks: &'static [&'static Block]) -> Self {
+        Self { what, blocks, optional: false, implied: None, later: &[] }
+    }
+}
+
+/// Fields of a block that can stand for one another.
+#[derive(Clone, Copy, Debug)]
+pub struct Group {
+    /// Names of the fields; at least one of them must be given.
+    pub fields: &'static [&'static str],
+    /// Whether at most one may be given.
+    pub exclusive: bool,
+}
+
+impl Group {
+    /// At least one of some fields.
+    pub const fn any(fields: &'static [&'static str]) -> Self {
+        Self { fields, exclusive: false }
+    }
+
+    /// Exactly one of some fields.
+    pub const fn one(fields: &'static [&'static str]) -> Self {
+        Self { fields, exclusive: true }
+    }
 }
 
 /// An element of a later version of the format.
@@ -83,6 +131,13 @@ pub struct Later {
     pub name: &'static str,
     /// The version that brought it.
     pub since: &'static str,
+}
+
+impl Later {
+    /// An element that a version of the format brought.
+    pub const fn new(name: &'static str, since: &'static str) -> Self {
+        Self { name, since }
+    }
 }
 
 /// One child of a block, declared.
@@ -175,6 +230,29 @@ pub enum Kind {
     OneOf(&'static Alternatives),
     /// The bulk data of an embedded mesh.
     EmbeddedMesh,
+}
+
+impl Kind {
+    /// What is expected, in words: "a number".
+    pub fn words(&self) -> String {
+        match self {
+            Self::Flag => "an empty element".to_owned(),
+            Self::Bool => "true or false".to_owned(),
+            Self::Int => "a whole number".to_owned(),
+            Self::Real => "a number".to_owned(),
+            Self::Vec3 => "3 numbers".to_owned(),
+            Self::Matrix3 => "9 numbers".to_owned(),
+            Self::Reals => "numbers separated by blanks".to_owned(),
+            Self::Text => "text".to_owned(),
+            Self::Path => "a path".to_owned(),
+            Self::Choice(words) => format!("one of {}", words.join(", ")),
+            Self::Name => "a name".to_owned(),
+            Self::Reference(what) => format!("the name of a {what}"),
+            Self::Block(_) => "elements".to_owned(),
+            Self::OneOf(a) => a.what.to_owned(),
+            Self::EmbeddedMesh => "vertices and triangles".to_owned(),
+        }
+    }
 }
 
 /// Whether a child must be given, and what holds if it is not.

@@ -19,12 +19,13 @@ pub mod field;
 pub mod mesh;
 pub mod node;
 pub mod reference;
+mod report;
 pub mod resolver;
 pub mod value;
 
 pub use bind::{bind, report_unread};
 pub use element::{Attribute, Element};
-pub use field::{Alternatives, Block, Field, Kind, Later, Presence, Range};
+pub use field::{Alternatives, Block, Field, Group, Kind, Later, Presence, Range};
 pub use mesh::{EmbeddedMesh, MeshData};
 pub use node::{Node, Slot};
 pub use resolver::{ResolveError, Resolved, Resolver};

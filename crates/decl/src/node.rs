@@ -17,6 +17,8 @@ pub struct Node {
     pub(crate) slots: Vec<Vec<Slot>>,
     /// The alternative that was chosen.
     pub(crate) alternative: Option<Box<Node>>,
+    /// Whether its absence was reported already, in better words.
+    pub(crate) alternative_reported: bool,
     /// Whether lowering made use of this element.
     pub(crate) used: Cell<bool>,
 }
@@ -44,6 +46,7 @@ impl Node {
             span,
             slots: block.fields.iter().map(|_| vec![]).collect(),
             alternative: None,
+            alternative_reported: false,
             used: Cell::new(false),
         }
     }
@@ -70,6 +73,12 @@ impl Node {
     /// The place of a field, or of the whole element where the field was not given.
     pub fn span_of(&self, field: &str) -> Span {
         self.slots[self.index(field)].last().map_or(self.span, |s| s.span)
+    }
+
+    /// Says that lowering made use of this element, where its presence alone has a meaning
+    /// (`<null_material/>`).
+    pub fn mark_used(&self) {
+        self.used.set(true);
     }
 
     /// The chosen alternative.

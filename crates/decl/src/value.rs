@@ -1,6 +1,6 @@
 //! Text to typed values.
 
-use crate::field::{Field, Kind};
+use crate::field::{Field, Kind, Presence};
 
 /// A value without children, read from text.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,12 +38,10 @@ pub enum ValueError {
 pub fn parse(field: &Field, text: &str) -> (Value, Option<ValueError>) {
     let text = text.trim();
     match field.kind {
-        Kind::Flag => {
-            (Value::Flag, (!text.is_empty()).then(|| ValueError::Type("an empty element".to_owned())))
-        }
+        Kind::Flag => (Value::Flag, (!text.is_empty()).then(|| wrong_type(field))),
         Kind::Bool => match parse_bool(text) {
             Some(b) => (Value::Bool(b), None),
-            None => (Value::Bool(false), Some(ValueError::Type("true or false".to_owned()))),
+            None => (Value::Bool(false), Some(wrong_type(field))),
         },
         Kind::Int => parse_int(field, text),
         Kind::Real => match numbers(text, 1) {
@@ -57,26 +55,31 @@ pub fn parse(field: &Field, text: &str) -> (Value, Option<ValueError>) {
         Kind::Matrix3 => parse_matrix(text),
         Kind::Reals => match text.split_whitespace().map(parse_real).collect::<Option<Vec<f64>>>() {
             Some(v) => ranged(field, Value::Reals(v.clone()), &v),
-            None => (Value::Reals(vec![]), Some(ValueError::Type("numbers separated by blanks".to_owned()))),
+            None => (Value::Reals(vec![]), Some(wrong_type(field))),
         },
         Kind::Choice(words) => match words.iter().find(|w| w.eq_ignore_ascii_case(text)) {
             Some(w) => (Value::Text((*w).to_owned()), None),
             None => {
                 let first = words.first().copied().unwrap_or_default();
-                (
-                    Value::Text(first.to_owned()),
-                    Some(ValueError::Type(format!("one of {}", words.join(", ")))),
-                )
+                (Value::Text(first.to_owned()), Some(wrong_type(field)))
             }
         },
         Kind::Name | Kind::Reference(_) if text.is_empty() => {
-            (Value::Text(String::new()), Some(ValueError::Type("a name".to_owned())))
+            (Value::Text(String::new()), Some(wrong_type(field)))
+        }
+        // A path that may be missing may also be empty: exporters write `<nk_data/>` for none.
+        Kind::Path if text.is_empty() && field.presence == Presence::Required => {
+            (Value::Text(String::new()), Some(wrong_type(field)))
         }
         Kind::Text | Kind::Path | Kind::Name | Kind::Reference(_) => (Value::Text(text.to_owned()), None),
         Kind::Block(_) | Kind::OneOf(_) | Kind::EmbeddedMesh => {
             (Value::Flag, Some(ValueError::Type("elements, not text".to_owned())))
         }
     }
+}
+
+fn wrong_type(field: &Field) -> ValueError {
+    ValueError::Type(field.kind.words())
 }
 
 fn parse_bool(text: &str) -> Option<bool> {
@@ -114,9 +117,7 @@ fn parse_int(field: &Field, text: &str) -> (Value, Option<ValueError>) {
     let whole = parse_real(text).filter(|v| v.fract() == 0.0 && v.abs() <= 9.0e15);
     match whole {
         Some(v) => ranged(field, Value::Int(field.range.nearest(v) as i64), &[v]),
-        None => {
-            (Value::Int(field.range.nearest(1.0) as i64), Some(ValueError::Type("a whole number".to_owned())))
-        }
+        None => (Value::Int(field.range.nearest(1.0) as i64), Some(wrong_type(field))),
     }
 }
 
@@ -136,7 +137,7 @@ fn parse_matrix(text: &str) -> (Value, Option<ValueError>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::field::{Presence, Range};
+    use crate::field::Range;
 
     const POSITIVE: Field = Field::new("x", Kind::Real, Presence::Required, "").range(Range::Above(0.0));
 

@@ -1,1 +1,5 @@
-//! placeholder
+//! Reads `.igs` scene files into element trees.
+
+mod include;
+
+pub use include::INCLUDE;

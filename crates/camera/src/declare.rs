@@ -1,0 +1,215 @@
+//! The camera, declared.
+
+use indigo_decl::{Alternatives, Block, Field, Group, Kind, Later, Presence, Range};
+
+/// The declaration of `camera`.
+pub static CAMERA: Block = Block::new(
+    "camera",
+    "The camera: a thin lens before a flat sensor. The horizontal angle of view is \
+     2·atan(sensor_width / (2·lens_sensor_dist)), whatever the focus. A scene must have a camera.",
+    &[
+        Field::new("pos", Kind::Vec3, Presence::Required, "The centre of the lens.").unit("m"),
+        Field::new(
+            "up",
+            Kind::Vec3,
+            Presence::Required,
+            "Which way is up in the picture, of any length; only its part across `forwards` counts.",
+        ),
+        Field::new(
+            "forwards",
+            Kind::Vec3,
+            Presence::Required,
+            "Where the camera looks, of any length.",
+        ),
+        Field::new(
+            "aperture_radius",
+            Kind::Real,
+            Presence::Required,
+            "Radius of the aperture: the larger, the shallower the depth of field. With an aperture shape, half \
+             the side of the square in which it is drawn.",
+        )
+        .unit("m")
+        .range(Range::Above(0.0)),
+        Field::new(
+            "focus_distance",
+            Kind::Real,
+            Presence::Optional,
+            "Distance of the plane in focus, along `forwards`. Needed unless `autofocus` is set, which takes its \
+             place.",
+        )
+        .unit("m")
+        .range(Range::Above(0.0)),
+        Field::new(
+            "aspect_ratio",
+            Kind::Real,
+            Presence::Required,
+            "Width of the sensor over its height; should be that of the picture.",
+        )
+        .range(Range::Above(0.0)),
+        Field::new("sensor_width", Kind::Real, Presence::Required, "Width of the sensor, such as 0.036.")
+            .unit("m")
+            .range(Range::Above(0.0)),
+        Field::new(
+            "lens_sensor_dist",
+            Kind::Real,
+            Presence::Required,
+            "Distance from the lens to the sensor, such as 0.02. Zooms.",
+        )
+        .unit("m")
+        .range(Range::Above(0.0)),
+        Field::new(
+            "white_balance",
+            Kind::Text,
+            Presence::Default("D65"),
+            "Which light looks white: A, B, C, D50, D55, D65, D75, E, F1 to F12, or two numbers, the \
+             chromaticity x y.",
+        ),
+        Field::new(
+            "exposure_duration",
+            Kind::Real,
+            Presence::Default("0.01"),
+            "How long the shutter is open. Used by the tone mapping `linear` and `camera`.",
+        )
+        .unit("s")
+        .range(Range::Above(0.0)),
+        Field::new(
+            "autofocus",
+            Kind::Flag,
+            Presence::Optional,
+            "Focuses on what the camera sees in the middle of the picture; on infinity if that is nothing.",
+        ),
+        Field::new(
+            "vignetting",
+            Kind::Bool,
+            Presence::Default("true"),
+            "Whether the picture darkens towards its corners, by the cos⁴ law.",
+        ),
+        Field::new(
+            "bloom",
+            Kind::Block(&BLOOM),
+            Presence::Optional,
+            "A glow round bright spots.",
+        )
+        .deprecated("use aperture_diffraction, which computes the real effect"),
+        Field::new(
+            "obstacle_map",
+            Kind::Path,
+            Presence::Optional,
+            "An image of dust and scratches on the lens, for the diffraction by the aperture. Has an effect only \
+             with `aperture_diffraction`. The path may also stand in a `path` inside.",
+        ),
+        Field::new(
+            "aperture_shape",
+            Kind::Block(&APERTURE_SHAPE),
+            Presence::Optional,
+            "The shape of the aperture: a circle where it is missing.",
+        ),
+    ],
+)
+.with_needs(&[Group::any(&["focus_distance", "autofocus"])])
+.with_later(&[
+    Later::new("name", "3.0"),
+    Later::new("uid", "3.0"),
+    Later::new("keyframe", "3.0"),
+    Later::new("lens_shift_up_distance", "2.0"),
+    Later::new("lens_shift_right_distance", "2.0"),
+    Later::new("camera_type", "2.2"),
+    Later::new("white_point", "3.0"),
+])
+.with_ignored(&["polarising_filter", "polarising_angle", "glare_weight", "glare_radius", "glare_num_blades"])
+.with_example(
+    "<camera>
+    <pos>0 -2 1</pos>
+    <up>0 0 1</up>
+    <forwards>0 1 0</forwards>
+    <aperture_radius>0.001</aperture_radius>
+    <focus_distance>3.0</focus_distance>
+    <aspect_ratio>1.33</aspect_ratio>
+    <sensor_width>0.036</sensor_width>
+    <lens_sensor_dist>0.02</lens_sensor_dist>
+    <white_balance>E</white_balance>
+    <exposure_duration>0.01</exposure_duration>
+    <autofocus/>
+</camera>",
+);
+
+/// The declaration of `bloom`.
+pub static BLOOM: Block = Block::new(
+    "bloom",
+    "A glow: a blurred copy of the picture is added to it.",
+    &[
+        Field::new("weight", Kind::Real, Presence::Required, "The share of the picture that is added.")
+            .range(Range::AtLeast(0.0)),
+        Field::new(
+            "radius",
+            Kind::Real,
+            Presence::Required,
+            "Standard deviation of the blur, as a fraction of the larger side of the picture.",
+        )
+        .range(Range::AtLeast(0.0)),
+    ],
+)
+.with_example("<bloom><weight>0.1</weight><radius>0.05</radius></bloom>");
+
+/// The declaration of `aperture_shape`.
+pub static APERTURE_SHAPE: Block = Block::new(
+    "aperture_shape",
+    "The shape of the aperture. A picture of it is saved as `aperture_preview.png`.",
+    &[],
+)
+.with_alternatives(Alternatives::new("a shape", &[&CIRCULAR, &IMAGE, &GENERATED]))
+.with_example("<aperture_shape><circular/></aperture_shape>");
+
+/// The declaration of `circular`.
+pub static CIRCULAR: Block =
+    Block::new("circular", "A circle. It has no parameters.", &[]).with_example("<circular/>");
+
+/// The declaration of `image`.
+pub static IMAGE: Block = Block::new(
+    "image",
+    "An aperture drawn in an image: white lets light through, black stops it. The white part should \
+     touch the edges of the image, or time is wasted.",
+    &[Field::new(
+        "path",
+        Kind::Path,
+        Presence::Required,
+        "A square greyscale PNG file, relative to the scene file; its side is a power of two of at least 512 \
+         pixels.",
+    )],
+)
+.with_example("<image><path>aperture.png</path></image>");
+
+/// The declaration of `generated`.
+pub static GENERATED: Block = Block::new(
+    "generated",
+    "A diaphragm of curved blades.",
+    &[
+        Field::new("num_blades", Kind::Int, Presence::Required, "Number of blades.")
+            .range(Range::AtLeast(3.0)),
+        Field::new("start_angle", Kind::Real, Presence::Required, "Angle of the first blade.").unit("rad"),
+        Field::new(
+            "blade_offset",
+            Kind::Real,
+            Presence::Required,
+            "Distance from the centre to the edge of a blade.",
+        )
+        .unit("widths of the shape")
+        .range(Range::Above(0.0)),
+        Field::new(
+            "blade_curvature_radius",
+            Kind::Real,
+            Presence::Required,
+            "Distance from the edge of a blade to the centre of its curvature.",
+        )
+        .unit("widths of the shape")
+        .range(Range::Above(0.0)),
+    ],
+)
+.with_example(
+    "<generated>
+    <num_blades>6</num_blades>
+    <start_angle>0.2</start_angle>
+    <blade_offset>0.3</blade_offset>
+    <blade_curvature_radius>1.2</blade_curvature_radius>
+</generated>",
+);

@@ -1,0 +1,61 @@
+//! `meshlight`: a lamp in the shape of a mesh.
+
+use super::efficacy::EFFICACY_SCALE;
+use super::placement::{MESH_NAME, POS, ROTATION, SCALE};
+use indigo_decl::{Block, Field, Kind, Later, Presence};
+use indigo_spectrum::declare::SPECTRUM;
+use indigo_texture::declare::TEXTURE;
+
+/// The declaration of `meshlight`.
+pub static BLOCK: Block = Block::new(
+    "meshlight",
+    "A lamp in the shape of a mesh. It emits from the front of its triangles (the side from which their \
+     vertices run counter-clockwise), and scatters light by the mesh's materials besides.",
+    &[
+        POS,
+        SCALE,
+        ROTATION,
+        MESH_NAME,
+        Field::new("spectrum", Kind::OneOf(&SPECTRUM), Presence::Required, "What it emits."),
+        EFFICACY_SCALE,
+        Field::new(
+            "texture",
+            Kind::Block(&TEXTURE),
+            Presence::Optional,
+            "An image map that multiplies the spectrum.",
+        ),
+        Field::new(
+            "ies_profile",
+            Kind::Block(&IES_PROFILE),
+            Presence::Optional,
+            "A measured distribution over directions. The flux is then that of the file.",
+        ),
+    ],
+)
+.with_later(&[Later::new("uid", "3.0"), Later::new("layer", "1.1")])
+.with_example(
+    "<meshlight>
+    <pos>0 0 3</pos>
+    <scale>1.0</scale>
+    <rotation><matrix>1 0 0 0 1 0 0 0 1</matrix></rotation>
+    <mesh_name>bulb</mesh_name>
+    <spectrum>
+        <blackbody><temperature>3500</temperature><gain>1.0</gain></blackbody>
+    </spectrum>
+    <efficacy_scale>
+        <power_drawn>150</power_drawn>
+        <overall_luminous_efficacy>20</overall_luminous_efficacy>
+    </efficacy_scale>
+</meshlight>",
+);
+
+/// The declaration of `ies_profile`.
+pub static IES_PROFILE: Block = Block::new(
+    "ies_profile",
+    "A measured distribution of light over directions, from a file by ANSI/IESNA LM-63-2002. Each \
+     triangle emits about its own normal, so the mesh should be flat. Files of photometric type C with \
+     vertical angles from 0 to 90 degrees are supported.",
+    &[Field::new("path", Kind::Path, Presence::Required, "The IES file, relative to the scene file.")],
+)
+.with_later(&[Later::new("material_name", "1.1")])
+.with_example("<ies_profile><path>lamp.ies</path></ies_profile>");

@@ -1,0 +1,44 @@
+//! `skylight`: the sun and the sky.
+
+use indigo_decl::{Block, Field, Kind, Later, Presence, Range};
+
+/// The declaration of `skylight`.
+pub static BLOCK: Block = Block::new(
+    "skylight",
+    "Lights the scene with the sun and the light that the atmosphere scatters. Up is the z axis.",
+    &[
+        Field::new(
+            "sundir",
+            Kind::Vec3,
+            Presence::Required,
+            "Direction towards the sun, of any length: (0, 0, 1) is overhead. z must be > 0.",
+        ),
+        Field::new(
+            "turbidity",
+            Kind::Real,
+            Presence::Required,
+            "How hazy the air is: about 2 on a very clear day, 5 in haze.",
+        )
+        .range(Range::Above(0.0)),
+        Field::new(
+            "extra_atmospheric",
+            Kind::Bool,
+            Presence::Default("false"),
+            "As if above the atmosphere: the sun is not dimmed, and the sky is black.",
+        ),
+        Field::new(
+            "model",
+            Kind::Choice(&["hosek", "preetham"]),
+            Presence::Default("hosek"),
+            "The model of the sky: that of L. Hosek and A. Wilkie (2012), or that of A. J. Preetham, \
+             P. Shirley and B. Smits (1999), whose zenith is 2 to 3 times brighter.",
+        ),
+    ],
+)
+.with_later(&[Later::new("sun_layer", "1.1"), Later::new("sky_layer", "1.1"), Later::new("uid", "3.0")])
+.with_example(
+    "<skylight>
+    <sundir>0 0.6 1</sundir>
+    <turbidity>2</turbidity>
+</skylight>",
+);

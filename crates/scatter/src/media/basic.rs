@@ -1,0 +1,84 @@
+//! `basic`: a medium of given coefficients.
+
+use crate::phase::PHASE_FUNCTION;
+use indigo_decl::{Block, Field, Kind, Later, Presence, Range};
+use indigo_spectrum::declare::SPECTRUM;
+
+/// The declaration of `basic`.
+pub static BLOCK: Block = Block::new(
+    "basic",
+    "A medium given by its index of refraction, absorption and scattering.",
+    &[
+        Field::new(
+            "ior",
+            Kind::Real,
+            Presence::Required,
+            "Index of refraction: about 1.5 for glass and plastics, 1.33 for water.",
+        )
+        .range(Range::AtLeast(1.0)),
+        Field::new(
+            "cauchy_b_coeff",
+            Kind::Real,
+            Presence::Default("0"),
+            "The coefficient B of Cauchy's equation n = A + B/λ², with which the index varies over the \
+             wavelengths; 0.003 to 0.01 for glass and water, 0 for no dispersion. Dispersion costs time: a \
+             refracted ray stands for one wavelength only.",
+        )
+        .unit("µm²")
+        .range(Range::AtLeast(0.0)),
+        Field::new(
+            "absorption_coefficient_spectrum",
+            Kind::OneOf(&SPECTRUM),
+            Presence::Optional,
+            "How fast light is absorbed along its way. Negative values count as 0; without it the medium is \
+             clear.",
+        )
+        .unit("m^-1"),
+        Field::new(
+            "subsurface_scattering",
+            Kind::Block(&SUBSURFACE_SCATTERING),
+            Presence::Optional,
+            "Makes the medium scatter light.",
+        ),
+    ],
+)
+.with_later(&[Later::new("absorption_coefficient", "1.1"), Later::new("fast_sss", "3.0")])
+.with_example(
+    "<basic>
+    <ior>1.5</ior>
+    <cauchy_b_coeff>0.004</cauchy_b_coeff>
+    <absorption_coefficient_spectrum>
+        <rgb><rgb>14.4 27.0 9.2</rgb></rgb>
+    </absorption_coefficient_spectrum>
+</basic>",
+);
+
+/// The declaration of `subsurface_scattering`.
+pub static SUBSURFACE_SCATTERING: Block = Block::new(
+    "subsurface_scattering",
+    "How a medium scatters light.",
+    &[
+        Field::new(
+            "scattering_coefficient_spectrum",
+            Kind::OneOf(&SPECTRUM),
+            Presence::Required,
+            "How often light is scattered along its way. Negative values count as 0.",
+        )
+        .unit("m^-1"),
+        Field::new(
+            "phase_function",
+            Kind::OneOf(&PHASE_FUNCTION),
+            Presence::Required,
+            "Into which directions light is scattered.",
+        ),
+    ],
+)
+.with_later(&[Later::new("scattering_coefficient", "1.1")])
+.with_example(
+    "<subsurface_scattering>
+    <scattering_coefficient_spectrum>
+        <uniform><value>10</value></uniform>
+    </scattering_coefficient_spectrum>
+    <phase_function><uniform/></phase_function>
+</subsurface_scattering>",
+);

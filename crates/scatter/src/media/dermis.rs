@@ -1,0 +1,17 @@
+//! `dermis`: the inner layer of skin.
+
+use indigo_decl::{Block, Field, Kind, Presence, Range};
+
+/// The declaration of `dermis`.
+pub static BLOCK: Block = Block::new(
+    "dermis",
+    "The inner layer of skin: C. Donner and H. W. Jensen, A Spectral BSSRDF for Shading Human Skin (2006).",
+    &[Field::new(
+        "hemoglobin_fraction",
+        Kind::Real,
+        Presence::Required,
+        "Volume fraction of hemoglobin in the tissue, typically 0.001 to 0.1.",
+    )
+    .range(Range::Within(0.0, 1.0))],
+)
+.with_example("<dermis><hemoglobin_fraction>0.01</hemoglobin_fraction></dermis>");

@@ -1,0 +1,223 @@
+//! Render settings, declared.
+
+use super::filter::{DOWNSIZE_FILTER, SPLAT_FILTER};
+use indigo_decl::{Block, Field, Kind, Later, Presence, Range};
+
+const fn flag(name: &'static str, default: &'static str, doc: &'static str) -> Field {
+    Field::new(name, Kind::Bool, Presence::Default(default), doc)
+}
+
+const fn count(name: &'static str, default: &'static str, doc: &'static str) -> Field {
+    Field::new(name, Kind::Int, Presence::Default(default), doc).range(Range::Above(0.0))
+}
+
+const fn real(name: &'static str, default: &'static str, doc: &'static str) -> Field {
+    Field::new(name, Kind::Real, Presence::Default(default), doc)
+}
+
+/// The declaration of `renderer_settings`.
+pub static RENDERER_SETTINGS: Block = Block::new(
+    "renderer_settings",
+    "How to render. Every setting is optional. What is said here overrides `inifile.xml`, whose root \
+     element holds the same settings; the command line overrides both.",
+    &[
+        count("width", "600", "Width of the picture.").unit("pixels"),
+        count("height", "450", "Height of the picture.").unit("pixels"),
+        count(
+            "bih_tri_threshold",
+            "1100000",
+            "Meshes with more triangles than this get a tree that is quick to build and small, the others one \
+             that is quick to trace.",
+        )
+        .unit("triangles"),
+        flag("metropolis", "true", "Whether paths are chosen by Metropolis sampling."),
+        real(
+            "large_mutation_prob",
+            "0.4",
+            "Probability of a large mutation, which starts afresh. Used with `metropolis`.",
+        )
+        .range(Range::Within(0.0, 1.0)),
+        real("max_change", "0.01", "Radius of the small mutations. Used with `metropolis`.")
+            .range(Range::Within(0.0, 1.0)),
+        count(
+            "max_depth",
+            "10000",
+            "Largest number of scattering events between the camera and the light.",
+        )
+        .unit("bounces"),
+        count(
+            "max_num_consec_rejections",
+            "1000",
+            "Largest number of mutations that may be rejected in a row. Used with `metropolis`. Strictly \
+             speaking any finite number biases the picture.",
+        )
+        .unit("rejections"),
+        flag("logging", "true", "Whether the console's output is also written to `log.txt`."),
+        flag(
+            "bidirectional",
+            "true",
+            "Whether paths are built from both ends. Otherwise from the camera only.",
+        ),
+        flag(
+            "save_untonemapped_exr",
+            "false",
+            "Whether an EXR picture of the luminances is saved beside the PNG.",
+        ),
+        flag(
+            "save_tonemapped_exr",
+            "false",
+            "Whether an EXR picture of the tone-mapped colours is saved beside the PNG.",
+        ),
+        flag(
+            "save_igi",
+            "false",
+            "Whether the film is saved as an Indigo image, from which rendering can go on.",
+        ),
+        real("image_save_period", "10", "How often the pictures are saved.").unit("s").range(Range::Above(0.0)),
+        real("halt_time", "-1", "Rendering halts after this time. Never, if not positive.").unit("s"),
+        real(
+            "halt_samples_per_pixel",
+            "-1",
+            "Rendering halts at this number of samples per pixel. Never, if not positive.",
+        )
+        .unit("samples/pixel"),
+        flag(
+            "hybrid",
+            "false",
+            "Whether direct light is sampled by low-discrepancy points and the rest by Metropolis sampling.",
+        ),
+        real("frame_upload_period", "40", "How often a network slave sends its film to the master.")
+            .unit("s")
+            .range(Range::Above(0.0)),
+        flag(
+            "auto_choose_num_threads",
+            "true",
+            "Whether there are as many threads as the machine has logical cores.",
+        ),
+        count("num_threads", "1", "Number of threads, without `auto_choose_num_threads`.").unit("threads"),
+        count(
+            "super_sample_factor",
+            "2",
+            "The picture is rendered this many times larger in both directions and then made smaller, which \
+             smooths bright edges. Memory grows with its square.",
+        ),
+        real("display_period", "10", "How often the picture on the screen is renewed.")
+            .unit("s")
+            .range(Range::Above(0.0)),
+        real(
+            "ray_origin_nudge_distance",
+            "1.0e-4",
+            "Rays start at least this far from the surface that they leave. 0 leaves it to the rounding-error \
+             bound of each hit.",
+        )
+        .unit("m")
+        .range(Range::AtLeast(0.0)),
+        flag("watermark", "false", "Whether the logo is drawn into the lower right corner."),
+        flag("cache_trees", "true", "Whether the trees of meshes are kept on disk for the next time."),
+        flag("aperture_diffraction", "true", "Whether light is diffracted by the aperture of the camera."),
+        flag(
+            "post_process_diffraction",
+            "true",
+            "Whether that diffraction is a filter on the picture (faster, less noise, slightly less exact) \
+             instead of a deflection of rays.",
+        ),
+        flag(
+            "vignetting",
+            "true",
+            "Whether the picture darkens towards its corners, by the cos⁴ law. Needs the camera's consent, too.",
+        ),
+        Field::new(
+            "render_region",
+            Kind::Block(&RENDER_REGION),
+            Presence::Optional,
+            "Renders only a part of the picture.",
+        ),
+        flag(
+            "render_foreground_alpha",
+            "false",
+            "Whether the picture shows only what hides the background: white where there is something, black \
+             where the surroundings are seen.",
+        ),
+        Field::new(
+            "splat_filter",
+            Kind::Block(&SPLAT_FILTER),
+            Presence::Optional,
+            "How samples are spread over pixels: `mn_cubic` where it is missing.",
+        ),
+        Field::new(
+            "downsize_filter",
+            Kind::Block(&DOWNSIZE_FILTER),
+            Presence::Optional,
+            "How a super-sampled picture is made smaller: `mn_cubic` where it is missing.",
+        ),
+    ],
+)
+.with_later(LATER)
+.with_ignored(&["russian_roulette_live_prob", "strata_width"])
+.with_example(
+    "<renderer_settings>
+    <metropolis>true</metropolis>
+    <bidirectional>true</bidirectional>
+    <width>800</width>
+    <height>600</height>
+    <downsize_filter>
+        <mn_cubic><ring>0.2</ring><blur>0.6</blur></mn_cubic>
+    </downsize_filter>
+    <splat_filter><gaussian/></splat_filter>
+    <super_sample_factor>2</super_sample_factor>
+    <aperture_diffraction>true</aperture_diffraction>
+    <post_process_diffraction>true</post_process_diffraction>
+</renderer_settings>",
+);
+
+/// The declaration of `render_region`.
+pub static RENDER_REGION: Block = Block::new(
+    "render_region",
+    "The part of the picture to render: the pixels with x1 ≤ x < x2 and y1 ≤ y < y2, counted from the \
+     top left corner, with x2 ≤ width and y2 ≤ height.",
+    &[
+        corner("x1", "First column.", Range::AtLeast(0.0)),
+        corner("y1", "First row.", Range::AtLeast(0.0)),
+        corner("x2", "Column after the last one; greater than x1.", Range::Above(0.0)),
+        corner("y2", "Row after the last one; greater than y1.", Range::Above(0.0)),
+    ],
+)
+.with_example("<render_region><x1>10</x1><y1>10</y1><x2>110</x2><y2>60</y2></render_region>");
+
+const fn corner(name: &'static str, doc: &'static str, range: Range) -> Field {
+    Field::new(name, Kind::Int, Presence::Required, doc).unit("pixels").range(range)
+}
+
+/// Settings of later versions.
+const LATER: &[Later] = &[
+    Later::new("info_overlay", "1.1"),
+    Later::new("white_point", "1.1"),
+    Later::new("save_png", "2.0"),
+    Later::new("save_jpeg", "2.0"),
+    Later::new("verbose", "2.0"),
+    Later::new("write_aperture_preview", "2.0"),
+    Later::new("material_id_tracer", "2.0"),
+    Later::new("depth_pass", "2.0"),
+    Later::new("shadow_pass", "3.0"),
+    Later::new("merging", "3.0"),
+    Later::new("dithering", "3.0"),
+    Later::new("gpu", "3.0"),
+    Later::new("gpu_max_depth", "4.0"),
+    Later::new("batched", "3.0"),
+    Later::new("glass_acceleration", "3.0"),
+    Later::new("close_gui_on_halt", "3.0"),
+    Later::new("save_images_on_close", "3.0"),
+    Later::new("clamp_contributions", "4.0"),
+    Later::new("max_contribution", "4.0"),
+    Later::new("denoise", "4.0"),
+    Later::new("optimise_for_denoising", "4.0"),
+    Later::new("layer_setting", "1.1"),
+    Later::new("colour_curves", "4.0"),
+    Later::new("normals_channel", "4.0"),
+    Later::new("depth_channel", "4.0"),
+    Later::new("position_channel", "4.0"),
+    Later::new("albedo_channel", "4.0"),
+    Later::new("material_id_channel", "4.0"),
+    Later::new("object_id_channel", "4.0"),
+    Later::new("spectral_channel", "4.0"),
+];
