@@ -76,6 +76,7 @@ macro_rules! lanes {
 
             /// A function applied to each lane.
             #[inline(always)]
+            #[must_use]
             pub fn map(self, f: impl FnMut(Real) -> Real) -> Self {
                 Self(self.0.map(f))
             }
@@ -125,6 +126,7 @@ macro_rules! lanes {
             /// Quotient per lane, 0 in the lanes whose divisor is 0: the value of an event that
             /// cannot happen there.
             #[inline(always)]
+            #[must_use]
             pub fn over(self, density: LanePdf) -> Self {
                 Self(from_fn(|i| if density.0[i] == 0.0 { 0.0 } else { self.0[i] / density.0[i] }))
             }
@@ -184,6 +186,7 @@ impl SampledSpectrum {
 
     /// Value times density, lane by lane.
     #[inline(always)]
+    #[must_use]
     pub fn times(self, density: LanePdf) -> Self {
         Self(from_fn(|i| self.0[i] * density.0[i]))
     }
@@ -202,6 +205,7 @@ impl LanePdf {
     /// a lane is its throughput over the mean of its ratios (balance heuristic over the lanes,
     /// Wilkie et al. 2014, eq. 6).
     #[inline(always)]
+    #[must_use]
     pub fn ratio_to_hero(self) -> Self {
         self.over(Self::splat(self.0[0]))
     }
@@ -230,7 +234,7 @@ mod tests {
     fn sums_and_extremes() {
         let n = LANES as Real;
         assert_eq!(ramp(1.0).sum(), n * (n + 1.0) / 2.0);
-        assert_eq!(ramp(1.0).mean(), (n + 1.0) / 2.0);
+        assert_eq!(ramp(1.0).mean(), Real::midpoint(n, 1.0));
         assert_eq!((ramp(1.0).min_lane(), ramp(1.0).max_lane()), (1.0, n));
         assert!(SampledSpectrum::ZERO.is_black() && !ramp(1.0).is_black());
         assert!(!(ramp(1.0) / 0.0).is_finite() && ramp(1.0).is_finite());

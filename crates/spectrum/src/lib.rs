@@ -21,6 +21,7 @@
 //! | coefficient | [`Spectrum::rgb_coefficient`] | linear in the triple, no upper limit; a grey is flat | 1 at every wavelength |
 
 pub mod adaptation;
+pub mod declare;
 mod error;
 pub mod grid;
 pub mod illuminant;
@@ -29,11 +30,14 @@ pub mod kinds;
 mod lanes;
 pub mod observer;
 pub mod photometry;
+pub mod read;
 pub mod rgb;
+#[cfg(test)]
+mod test_support;
 mod wavelengths;
 
 pub use error::SpectrumError;
 pub use kinds::Spectrum;
 pub use lanes::{LANES, LanePdf, SampledSpectrum};
-pub use rgb::SigmoidCoeffs;
+pub use rgb::{Reflectance, RgbTable};
 pub use wavelengths::SampledWavelengths;

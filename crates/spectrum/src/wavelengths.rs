@@ -4,6 +4,7 @@
 
 use indigo_math::Real;
 
+use crate::adaptation::XYZ_TO_RGB;
 use crate::grid::{COUNT, FIRST_NM, LAST_NM};
 use crate::lanes::LANES;
 use crate::observer::CMF;
@@ -23,15 +24,50 @@ const SEGMENTS: usize = 1024;
 
 /// Part of the samples that is spread evenly over the visible range, so that no wavelength has a
 /// density near zero.
-const UNIFORM_PART: f64 = 0.05;
+const UNIFORM_PART: f64 = 0.1;
 
 /// The ends of the segments, nm: the inverse of the cumulative density at `k / SEGMENTS`.
 static KNOTS: [Real; SEGMENTS + 1] = knots();
 
-/// The density before it is cut into segments, up to a factor, between grid points `i` and `i + 1`.
+/// The density before it is cut into segments, up to a factor, between grid points `i` and `i + 1`:
+/// the length of the linear RGB vector that the wavelength's light has. That is the density of
+/// least summed variance of the three channels for one lane and a flat spectrum.
+///
+/// Standard deviation of one sample's RGB colour over the colour's largest component, geometric
+/// mean over nine spectra (illuminants E, D65, A, F11; red, green, blue paint under D65; bands of
+/// 20 nm at 450 and 650 nm), and that of its luminance, by quadrature:
+///
+/// | density | 4 lanes: colour | luminance | 1 lane: colour | 8 lanes: colour |
+/// |---|---|---|---|---|
+/// | uniform | 1.180 | 0.344 | | |
+/// | y, 5 % uniform | 1.844 | 0.317 | | |
+/// | sech² fitted to y (Radziszewski et al. 2009) | 0.616 | 0.149 | 3.02 | 0.107 |
+/// | x + y + z, 5 % uniform | 0.594 | 0.345 | 2.64 | 0.238 |
+/// | RGB length, 5 % uniform | 0.431 | 0.203 | 2.48 | 0.214 |
+/// | **RGB length, 10 % uniform** | **0.416** | 0.204 | 2.51 | 0.191 |
 const fn importance(i: usize) -> f64 {
-    let (a, b) = (CMF[i], CMF[i + 1]);
-    (a[0] + a[1] + a[2] + b[0] + b[1] + b[2]) / 2.0
+    let (mut squares, mut c) = (0.0, 0);
+    while c < 3 {
+        let row = 3 * c;
+        let (a, b) = (CMF[i], CMF[i + 1]);
+        let component = XYZ_TO_RGB[row] * (a[0] + b[0])
+            + XYZ_TO_RGB[row + 1] * (a[1] + b[1])
+            + XYZ_TO_RGB[row + 2] * (a[2] + b[2]);
+        squares += component * component;
+        c += 1;
+    }
+    square_root(squares)
+}
+
+/// Square root by Newton's method, for tables made by the compiler.
+const fn square_root(v: f64) -> f64 {
+    let mut root = if v > 1.0 { v } else { 1.0 };
+    let mut step = 0;
+    while step < 60 {
+        root = 0.5 * (root + v / root);
+        step += 1;
+    }
+    root
 }
 
 const fn knots() -> [Real; SEGMENTS + 1] {

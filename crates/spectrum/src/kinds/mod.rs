@@ -16,7 +16,7 @@ use crate::illuminant;
 use crate::integrate;
 use crate::lanes::SampledSpectrum;
 use crate::observer::{self, NITS_PER_UNIT};
-use crate::rgb::{self, SigmoidCoeffs};
+use crate::rgb::{self, Reflectance};
 use crate::wavelengths::SampledWavelengths;
 
 /// A function of wavelength as a scene gives it: spectral radiance (W m^-3 sr^-1), reflectance
@@ -30,12 +30,12 @@ pub enum Spectrum {
     Peak(Peak),
     /// Planck's law times a gain.
     Blackbody(Blackbody),
-    /// A smooth reflectance, from an RGB triple, times a scale.
-    Sigmoid {
+    /// A smooth reflectance, from an RGB triple, times a factor.
+    Reflectance {
         /// The reflectance.
-        coeffs: SigmoidCoeffs,
+        shape: Reflectance,
         /// What multiplies it.
-        scale: f64,
+        factor: f64,
     },
     /// Values at equal steps, linear between them, the end values held outside.
     Table(Table),
@@ -76,11 +76,16 @@ impl Spectrum {
     /// The smooth reflectance that has this linear Rec. 709 colour under D65; each component is
     /// clamped to [0, 1], NaN to 0.
     pub fn rgb_reflectance(rgb: [f64; 3]) -> Self {
-        Self::from_reflectance(rgb::clamp_unit(rgb))
+        let rgb = rgb.map(rgb::unit);
+        if rgb[0] == rgb[1] && rgb[1] == rgb[2] {
+            return Self::Uniform(rgb[0]);
+        }
+        Self::Reflectance { shape: Reflectance::fit(rgb), factor: 1.0 }
     }
 
     /// Emission of this linear Rec. 709 colour, shaped like D65, W m^-3 sr^-1: `[v, v, v]` has the
-    /// luminance of `uniform(v)` and the chromaticity of D65. Negative components and NaN count as 0.
+    /// luminance of `uniform(v)` and the chromaticity of D65. Negative components and NaN count as
+    /// 0; a triple with an infinity radiates nothing.
     pub fn rgb_emission(rgb: [f64; 3]) -> Self {
         let emission = rgb::Emission::fit(rgb);
         Self::Table(Table::on_grid(|lambda| emission.at(lambda)))
@@ -93,13 +98,6 @@ impl Spectrum {
             return Self::Uniform(rgb[0]);
         }
         Self::Table(rgb::basis::table(rgb))
-    }
-
-    fn from_reflectance(rgb: [f64; 3]) -> Self {
-        if rgb[0] == rgb[1] && rgb[1] == rgb[2] {
-            return Self::Uniform(rgb[0]);
-        }
-        Self::Sigmoid { coeffs: rgb::fit::fit(rgb), scale: 1.0 }
     }
 
     /// The named CIE illuminant (see [`illuminant::find`]), scaled to the luminance of
@@ -117,7 +115,7 @@ impl Spectrum {
                 SampledSpectrum(wavelengths.lambda.map(|l| Real::from_f64(peak.at(l.to_f64()))))
             }
             Self::Blackbody(body) => SampledSpectrum(wavelengths.lambda.map(|l| body.eval(l))),
-            Self::Sigmoid { coeffs, scale } => coeffs.eval(wavelengths) * Real::from_f64(*scale),
+            Self::Reflectance { shape, factor } => shape.eval(wavelengths) * Real::from_f64(*factor),
             Self::Table(table) => SampledSpectrum(wavelengths.lambda.map(|l| table.eval(l))),
         }
     }
@@ -128,7 +126,7 @@ impl Spectrum {
             Self::Uniform(v) => *v,
             Self::Peak(peak) => peak.at(lambda_nm),
             Self::Blackbody(body) => body.at(lambda_nm),
-            Self::Sigmoid { coeffs, scale } => coeffs.at(lambda_nm) * scale,
+            Self::Reflectance { shape, factor } => shape.at(lambda_nm) * factor,
             Self::Table(table) => table.at(lambda_nm),
         }
     }
@@ -185,7 +183,9 @@ impl Spectrum {
             Self::Uniform(v) => Self::Uniform(v * factor),
             Self::Peak(p) => Self::Peak(Peak { base: p.base * factor, peak: p.peak * factor, ..*p }),
             Self::Blackbody(body) => Self::Blackbody(body.scaled(factor)),
-            Self::Sigmoid { coeffs, scale } => Self::Sigmoid { coeffs: *coeffs, scale: scale * factor },
+            Self::Reflectance { shape, factor: own } => {
+                Self::Reflectance { shape: *shape, factor: own * factor }
+            }
             Self::Table(table) => Self::Table(table.map(|v| v * factor)),
         }
     }
@@ -200,7 +200,7 @@ impl Spectrum {
             Self::Uniform(v) => Self::Uniform(clamp(*v)),
             Self::Peak(p) => Self::Peak(Peak { base: clamp(p.base), peak: clamp(p.peak), ..*p }),
             Self::Table(table) => Self::Table(table.map(clamp)),
-            Self::Blackbody(_) | Self::Sigmoid { .. } => {
+            Self::Blackbody(_) | Self::Reflectance { .. } => {
                 let (least, most) = self.range();
                 if least >= lo && most <= hi {
                     self.clone()
@@ -224,7 +224,7 @@ impl Spectrum {
         let own: Vec<f64> = match self {
             Self::Peak(p) => vec![p.min_nm, p.max_nm],
             Self::Table(table) => table.wavelengths().collect(),
-            Self::Uniform(_) | Self::Blackbody(_) | Self::Sigmoid { .. } => Vec::new(),
+            Self::Uniform(_) | Self::Blackbody(_) | Self::Reflectance { .. } => Vec::new(),
         };
         let inside = |lambda: &f64| *lambda > grid::FIRST_NM && *lambda < grid::LAST_NM;
         let mut points: Vec<f64> = grid::wavelengths().chain(own.into_iter().filter(inside)).collect();

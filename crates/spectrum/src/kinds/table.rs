@@ -15,6 +15,7 @@ const SMALLEST_STEP_NM: f64 = 1e-6;
 pub struct Table {
     start_nm: f64,
     step_nm: f64,
+    steps_per_nm: f64,
     /// At least two.
     values: Arc<[Real]>,
 }
@@ -46,7 +47,7 @@ impl Table {
 
     /// At least two values from `start_nm` at a positive step.
     pub(crate) fn of(start_nm: f64, step_nm: f64, values: impl Iterator<Item = f64>) -> Self {
-        Self { start_nm, step_nm, values: values.map(Real::from_f64).collect() }
+        Self { start_nm, step_nm, steps_per_nm: 1.0 / step_nm, values: values.map(Real::from_f64).collect() }
     }
 
     /// The table with a function applied to each of its values.
@@ -82,7 +83,7 @@ impl Table {
     #[inline(always)]
     fn locate(&self, lambda_nm: f64) -> (usize, f64) {
         let last = self.values.len() - 1;
-        let x = ((lambda_nm - self.start_nm) / self.step_nm).max(0.0).min(last as f64);
+        let x = ((lambda_nm - self.start_nm) * self.steps_per_nm).max(0.0).min(last as f64);
         let cell = (x as usize).min(last - 1);
         (cell, x - cell as f64)
     }

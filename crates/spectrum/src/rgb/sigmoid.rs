@@ -1,4 +1,4 @@
-//! A smooth reflectance in three numbers (Jakob & Hanika 2019, "A Low-Dimensional Function Space
+//! A smooth curve in three numbers (Jakob & Hanika 2019, "A Low-Dimensional Function Space
 //! for Efficient Spectral Upsampling", eq. 1–2).
 
 use indigo_math::{Float, Real};
@@ -8,18 +8,11 @@ use crate::lanes::SampledSpectrum;
 use crate::wavelengths::SampledWavelengths;
 
 /// S(λ) = 1/2 + x / (2 √(1 + x²)) with x = c0 t² + c1 t + c2 and t = (λ − 360 nm) / 470 nm: always
-/// within [0, 1]. `c2` is infinite, with the others 0, for black and for white.
+/// within [0, 1].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SigmoidCoeffs(pub [Real; 3]);
 
 impl SigmoidCoeffs {
-    /// The flat reflectance `v`, clamped to [0, 1].
-    #[inline]
-    pub fn grey(v: Real) -> Self {
-        let v = v.max(0.0).min(1.0);
-        Self([0.0, 0.0, (v - 0.5) / (v * (1.0 - v)).sqrt()])
-    }
-
     /// The values at these wavelengths.
     #[inline(always)]
     pub fn eval(&self, wavelengths: &SampledWavelengths) -> SampledSpectrum {
@@ -33,18 +26,13 @@ impl SigmoidCoeffs {
     /// The value at a wavelength in nm, in double precision.
     pub fn at(&self, lambda_nm: f64) -> f64 {
         let [c0, c1, c2] = self.0.map(Float::to_f64);
-        let t = position(lambda_nm);
+        let t = (lambda_nm - FIRST_NM) / (LAST_NM - FIRST_NM);
         sigmoid((c0 * t + c1) * t + c2)
     }
 }
 
-/// Where a wavelength in nm lies in the visible range: 0 at 360 nm, 1 at 830 nm.
-pub(crate) fn position(lambda_nm: f64) -> f64 {
-    (lambda_nm - FIRST_NM) / (LAST_NM - FIRST_NM)
-}
-
-/// 1/2 + x / (2 √(1 + x²)), written so that nothing cancels near 0 and that infinities are fine:
-/// with r = √(1 + x²) the smaller of S and 1 − S is 1 / (2 r (r + |x|)).
+/// 1/2 + x / (2 √(1 + x²)), written so that nothing cancels near 0: with r = √(1 + x²) the smaller of S and
+/// 1 − S is 1 / (2 r (r + |x|)).
 #[inline(always)]
 fn sigmoid<T: Float>(x: T) -> T {
     let half = T::from_f64(0.5);

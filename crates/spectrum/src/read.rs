@@ -1,0 +1,92 @@
+//! Spectra from scene files. What a number may be depends on the use, so each use is a function.
+
+use crate::Spectrum;
+use indigo_decl::{Node, codes};
+use indigo_diag::{Diagnostic, Sink};
+
+/// What an RGB triple stands for.
+#[derive(Clone, Copy)]
+enum Use {
+    Reflectance,
+    Emission,
+}
+
+/// A fraction of light: clamped to [0, 1], silently, as the manual says.
+pub fn reflectance(node: &Node, sink: &mut Sink) -> Spectrum {
+    build(node, Use::Reflectance, sink).clamped(0.0, 1.0)
+}
+
+/// Spectral radiance, W m^-3 sr^-1: negative values are errors, but for the noise of measured tables,
+/// which counts as 0.
+pub fn emission(node: &Node, sink: &mut Sink) -> Spectrum {
+    if node.block.name != crate::declare::REGULAR_TABULATED.name {
+        refuse_negative(node, sink);
+    }
+    build(node, Use::Emission, sink).clamped(0.0, f64::INFINITY)
+}
+
+fn refuse_negative(node: &Node, sink: &mut Sink) {
+    for field in node.block.fields {
+        let lowest = match field.name {
+            "rgb" => node.vec3("rgb").into_iter().fold(f64::INFINITY, f64::min),
+            "value" | "base_value" | "peak_value" => node.real(field.name),
+            _ => continue,
+        };
+        if lowest < 0.0 {
+            sink.push(
+                Diagnostic::error(
+                    codes::OUT_OF_RANGE,
+                    node.span_of(field.name),
+                    format!("<{}> of an emitter must be >= 0", field.name),
+                )
+                .expected(format!("found {lowest}")),
+            );
+        }
+    }
+}
+
+fn build(node: &Node, purpose: Use, sink: &mut Sink) -> Spectrum {
+    match node.block.name {
+        "uniform" => Spectrum::uniform(node.real("value")),
+        "blackbody" => Spectrum::blackbody(node.real("temperature"), node.real("gain")),
+        "peak" => Spectrum::peak(
+            node.real("peak_min"),
+            node.real("peak_width"),
+            node.real("base_value"),
+            node.real("peak_value"),
+        ),
+        "rgb" => {
+            let gamma = node.real("gamma");
+            let rgb = node.vec3("rgb").map(|v| if gamma == 1.0 { v } else { v.max(0.0).powf(gamma) });
+            match purpose {
+                Use::Reflectance => Spectrum::rgb_reflectance(rgb),
+                Use::Emission => Spectrum::rgb_emission(rgb),
+            }
+        }
+        _ => table(node, sink),
+    }
+}
+
+fn table(node: &Node, sink: &mut Sink) -> Spectrum {
+    let values = node.reals("values");
+    let count = node.int("num_values");
+    if usize::try_from(count) != Ok(values.value.len()) {
+        sink.push(
+            Diagnostic::error(
+                codes::OUT_OF_RANGE,
+                values.span,
+                format!("<num_values> is {count}, but <values> has {}", values.value.len()),
+            )
+            .expected(format!("expected {count} numbers")),
+        );
+    }
+    let (start, end) = (node.real("start_wavelength"), node.real("end_wavelength"));
+    match Spectrum::regular_tabulated(start, end, &values.value) {
+        Ok(spectrum) => spectrum,
+        Err(error) => {
+            let place = node.span_of("end_wavelength");
+            sink.push(Diagnostic::error(codes::OUT_OF_RANGE, place, format!("<regular_tabulated>: {error}")));
+            Spectrum::uniform(1.0)
+        }
+    }
+}
