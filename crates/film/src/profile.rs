@@ -14,6 +14,7 @@ const CELLS_PER_PIXEL: f64 = 512.0;
 pub(crate) struct Profile {
     radius: f64,
     cell: f64,
+    cells_per_pixel: f64,
     /// Values at the ends of the cells.
     values: Vec<f32>,
     /// Integral of the function from -radius to the ends of the cells.
@@ -32,17 +33,17 @@ impl Profile {
             _ => (2.0 * radius * CELLS_PER_PIXEL).ceil() as usize,
         };
         let cell = 2.0 * radius / cells as f64;
-        let mut values: Vec<f64> =
+        let values: Vec<f64> =
             (0..=cells).map(|k| filter.eval((k as f64 * cell - radius).clamp(-radius, radius))).collect();
         let raw = cumulative(&values, cell)[cells];
-        values.iter_mut().for_each(|v| *v /= raw);
         // Integrals of the rounded values, since those are what is evaluated.
-        let values: Vec<f32> = values.into_iter().map(|v| v as f32).collect();
+        let values: Vec<f32> = values.into_iter().map(|v| (v / raw) as f32).collect();
         let exact: Vec<f64> = values.iter().map(|&v| f64::from(v)).collect();
         let magnitudes: Vec<f64> = exact.iter().map(|v| v.abs()).collect();
         Self {
             radius,
             cell,
+            cells_per_pixel: cell.recip(),
             integral: cumulative(&exact, cell),
             absolute: cumulative(&magnitudes, cell),
             values,
@@ -80,16 +81,17 @@ impl Profile {
         let last = self.values.len() - 2;
         let k = self.absolute.partition_point(|&a| a <= target).saturating_sub(1).min(last);
         let (a, b) = (f64::from(self.values[k]), f64::from(self.values[k + 1]));
-        let t = invert_linear(a.abs(), b.abs(), (target - self.absolute[k]) / self.cell);
+        let t = invert_linear(a.abs(), b.abs(), (target - self.absolute[k]) * self.cells_per_pixel);
         let density = a.abs() + t * (b.abs() - a.abs());
-        let ratio = if density > 0.0 { (a + t * (b - a)) / density } else { 0.0 };
+        // At an end where the function vanishes its sign is the cell's.
+        let ratio = if density > 0.0 { (a + t * (b - a)) / density } else { (a + b).signum() };
         ((k as f64 + t) * self.cell - self.radius, ratio)
     }
 
     /// The cell that holds `x` and the position in it, from 0 to 1.
     #[inline]
     fn locate(&self, x: f64) -> (usize, f64) {
-        let s = ((x + self.radius) / self.cell).clamp(0.0, (self.values.len() - 1) as f64);
+        let s = ((x + self.radius) * self.cells_per_pixel).clamp(0.0, (self.values.len() - 1) as f64);
         let k = (s as usize).min(self.values.len() - 2);
         (k, s - k as f64)
     }

@@ -1,6 +1,6 @@
 //! The sensor: from spectral radiance to CIE XYZ. Nowhere else does a spectrum become a colour.
 
-use indigo_math::Real;
+use indigo_math::{Float, Real};
 use indigo_spectrum::{LANES, SampledSpectrum, SampledWavelengths, observer};
 
 /// The CIE 1931 observer at the wavelengths of one sample.
@@ -20,7 +20,8 @@ impl Sensor {
     /// these wavelengths: its mean over wavelength samples is 683.002 ∫ L x̄ dλ and so on.
     #[inline]
     pub fn xyz(&self, radiance: &SampledSpectrum) -> [f32; 3] {
-        self.weights.map(|weights| weights.iter().zip(&radiance.0).map(|(w, l)| w * l).sum::<Real>() as f32)
+        self.weights
+            .map(|weights| weights.iter().zip(&radiance.0).map(|(w, l)| w * l).sum::<Real>().to_f64() as f32)
     }
 }
 
