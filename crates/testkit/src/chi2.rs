@@ -44,7 +44,8 @@ pub struct Chi2 {
     pub samples: u32,
     /// Seed of the random numbers. Default 1.
     pub seed: u64,
-    /// Probability of a false alarm. Default 1e-4.
+    /// Probability of a false alarm. Default 1e-4. Pearson's statistic follows its distribution only
+    /// nearly: with most cells near the minimum expectation alarms were measured 1.3 times as frequent.
     pub level: f64,
 }
 

@@ -17,10 +17,10 @@ const FIELD: f64 = 5.0;
 pub fn write_scene(out: &mut dyn Write) -> io::Result<()> {
     let view = View {
         size: [800, 500],
-        from: [0.0, -8.5, 5.5],
+        from: [0.0, -10.5, 6.8],
         at: [0.0, -0.4, 0.0],
         lens_sensor_dist: 0.036,
-        focus: 9.0,
+        focus: 11.5,
         pre_scale: 1.5,
     };
     write_head(&view, out)?;

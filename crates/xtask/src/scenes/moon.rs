@@ -44,7 +44,7 @@ fn crater(index: u64) -> Crater {
 
 /// Height above the unit sphere: gentle highlands and the craters on them.
 fn height(d: Vector, craters: &[Crater]) -> f64 {
-    let land = 0.025 * fractal(scale(2.0, d), 7);
+    let land = 0.018 * fractal(scale(2.0, d), 7);
     land + craters.iter().map(|crater| crater_height(crater, d)).sum::<f64>()
 }
 
@@ -68,10 +68,10 @@ fn write_scene(mesh: impl Fn(&mut dyn Write) -> io::Result<()>, out: &mut dyn Wr
         at: [0.0; 3],
         lens_sensor_dist: 0.064,
         focus: 3.3,
-        pre_scale: 0.5,
+        pre_scale: 0.12,
     };
     write_head(&view, out)?;
-    write_background(1e4, out)?;
+    write_background(1.5e3, out)?;
     // External meshes of this format name their material so.
     write_diffuse("default", [0.42, 0.40, 0.37], out)?;
     mesh(out)?;
