@@ -67,8 +67,9 @@ impl Spectrum {
     /// emission that ends within the range says so with zeros of its own.
     ///
     /// # Errors
-    /// Fewer than two values, ends that are not finite, or not ascending and at least a millionth of a nanometre apart
-    /// per step, or a value that the kernel's scalar cannot hold.
+    /// Fewer than two values, ends that are not finite or not ascending, a step under a millionth
+    /// of a nanometre, or a value that the kernel's scalar cannot hold. Negative values are kept:
+    /// what they mean depends on the use, and [`Self::clamped`] limits them.
     pub fn regular_tabulated(start_m: f64, end_m: f64, values: &[f64]) -> Result<Self, SpectrumError> {
         Table::new(start_m * 1e9, end_m * 1e9, values).map(Self::Table)
     }

@@ -29,7 +29,7 @@ pub struct RgbTable {
 }
 
 impl RgbTable {
-    /// The table, built at the first call (a tenth of a second or two). Ask for it when a scene is
+    /// The table, built at the first call (about 0.3 s on one core). Ask for it when a scene is
     /// loaded, and keep the reference.
     pub fn get() -> &'static Self {
         static TABLE: OnceLock<RgbTable> = OnceLock::new();
