@@ -21,6 +21,9 @@ pub(crate) struct Profile {
     integral: Vec<f64>,
     /// Integral of the interpolated absolute values from -radius to the ends of the cells.
     absolute: Vec<f64>,
+    /// The cell in which `absolute` passes each of as many equal steps as there are cells: where
+    /// an inversion begins to look.
+    guide: Vec<u16>,
 }
 
 impl Profile {
@@ -40,12 +43,14 @@ impl Profile {
         let values: Vec<f32> = values.into_iter().map(|v| (v / raw) as f32).collect();
         let exact: Vec<f64> = values.iter().map(|&v| f64::from(v)).collect();
         let magnitudes: Vec<f64> = exact.iter().map(|v| v.abs()).collect();
+        let absolute = cumulative(&magnitudes, cell);
         Self {
+            guide: guide(&absolute),
             radius,
             cell,
             cells_per_pixel: cell.recip(),
             integral: cumulative(&exact, cell),
-            absolute: cumulative(&magnitudes, cell),
+            absolute,
             values,
         }
     }
@@ -79,7 +84,11 @@ impl Profile {
     /// changes.
     pub(crate) fn invert(&self, target: f64) -> (f64, f64) {
         let last = self.values.len() - 2;
-        let k = self.absolute.partition_point(|&a| a <= target).saturating_sub(1).min(last);
+        let step = target / self.absolute[last + 1] * self.guide.len() as f64;
+        let mut k = usize::from(self.guide[(step as usize).min(last)]);
+        while k < last && self.absolute[k + 1] <= target {
+            k += 1;
+        }
         let (a, b) = (f64::from(self.values[k]), f64::from(self.values[k + 1]));
         let t = invert_linear(a.abs(), b.abs(), (target - self.absolute[k]) * self.cells_per_pixel);
         let density = a.abs() + t * (b.abs() - a.abs());
@@ -112,6 +121,20 @@ fn cumulative(values: &[f64], cell: f64) -> Vec<f64> {
             sum += 0.5 * cell * (pair[0] + pair[1]);
             sum
         }))
+        .collect()
+}
+
+/// For each of as many equal steps of the last value as there are cells, the cell in which the
+/// cumulative table passes it, or one before.
+fn guide(cumulative: &[f64]) -> Vec<u16> {
+    let cells = cumulative.len() - 1;
+    let total = cumulative[cells];
+    (0..cells)
+        .map(|step| {
+            // Half a step early, so that rounding never leads beyond the target's cell.
+            let target = total * (step as f64 - 0.5) / cells as f64;
+            cumulative.partition_point(|&a| a <= target).saturating_sub(1) as u16
+        })
         .collect()
 }
 

@@ -1,6 +1,7 @@
 //! Facts about a render that travel inside its pictures.
 
 use crate::ImagingError;
+use std::fmt;
 
 /// Keys and values, kept in the order in which they were added. Files hold them sorted by key.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -10,8 +11,8 @@ pub struct Metadata {
 
 impl Metadata {
     /// Adds a fact; a key that is there already gets the new value.
-    pub fn set(&mut self, key: impl Into<String>, value: impl ToString) {
-        let (key, value) = (key.into(), value.to_string());
+    pub fn set(&mut self, key: impl Into<String>, value: impl fmt::Display) {
+        let (key, value) = (key.into(), format!("{value}"));
         match self.entries.iter_mut().find(|(k, _)| *k == key) {
             Some(entry) => entry.1 = value,
             None => self.entries.push((key, value)),

@@ -56,7 +56,7 @@ impl Reinhard {
 }
 
 /// What the operator needs to know of a picture.
-#[derive(Default)]
+#[derive(Clone, Copy, Default)]
 struct Statistics {
     sum_of_logs: f64,
     lit: u64,
