@@ -81,6 +81,11 @@ impl Node {
         self.used.set(true);
     }
 
+    /// Whether lowering made use of this element.
+    pub fn is_used(&self) -> bool {
+        self.used.get()
+    }
+
     /// The chosen alternative.
     pub fn alternative(&self) -> Option<&Node> {
         self.used.set(true);
@@ -187,6 +192,15 @@ impl Node {
     /// A child block.
     pub fn node(&self, field: &str) -> Option<&Node> {
         self.nodes(field).last()
+    }
+
+    /// Takes a child block out, as if it had not been given.
+    pub fn take_node(&mut self, field: &str) -> Option<Node> {
+        let i = self.index(field);
+        self.slots[i].pop().and_then(|s| match s.content {
+            Content::Node(n) => Some(*n),
+            Content::Value(_) | Content::Mesh(_) => None,
+        })
     }
 
     /// All child blocks of a repeated field, in order.

@@ -42,7 +42,7 @@ pub enum ResolveError {
 }
 
 /// Finds files by the paths that scenes write.
-pub trait Resolver {
+pub trait Resolver: Sync {
     /// The bytes of `path`, as written in the file `from` (empty for the program's own arguments).
     ///
     /// # Errors

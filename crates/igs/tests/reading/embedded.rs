@@ -1,0 +1,136 @@
+//! Embedded meshes: arrays, and the places of faults.
+
+use crate::common::Read;
+use indigo_decl::EmbeddedMesh;
+
+fn read(inside: &str) -> (EmbeddedMesh, Vec<String>) {
+    let text =
+        format!("<scene><mesh><name>m</name>\n<embedded>\n{inside}\n</embedded></mesh><after/></scene>");
+    let read = Read::text(&text);
+    assert_eq!(read.root().children.len(), 2, "{inside}");
+    let mesh = read.root().children[0].child("embedded").and_then(|e| e.mesh.clone()).expect("a mesh");
+    (*mesh, read.findings())
+}
+
+/// A triangle's vertices, as attributes that follow each position.
+fn vertices(attributes: [&str; 3]) -> String {
+    let pos = ["0 0 0", "1 0 0", "0 1 0"];
+    (0..3).map(|i| format!("<vertex pos=\"{}\" {}/>", pos[i], attributes[i])).collect()
+}
+
+const SET: &str = "<triangle_set><material_name>white</material_name><tri>0 1 2</tri></triangle_set>";
+
+#[test]
+fn the_example_of_the_manual() {
+    let (mesh, findings) = read(
+        r#"<expose_uv_set><index>0</index><name>albedo</name></expose_uv_set>
+        <expose_uv_set><index>0</index><name>bump</name></expose_uv_set>
+        <vertex pos="-10 -10 0" normal="0 0 1" uv0="0 0" />
+        <vertex pos="-10 10 0" normal="0 0 1" uv0="0 10" />
+        <vertex pos="10 10 0" normal="0 0 1" uv0="10 10" />
+        <vertex pos="10 -10 0" normal="0 0 1" uv0="10 0" />
+        <triangle_set>
+            <material_name>white</material_name>
+            <tri>0 1 2</tri>
+            <tri>0 2 3</tri>
+        </triangle_set>
+        <vertex pos="-10 3 0" normal="0 -1 1" uv0="0 0" />
+        <vertex pos="-10 3 20" normal="0 -1 1" uv0="0 10" />
+        <vertex pos="10 3 20" normal="0 -1 1" uv0="10 10" />
+        <vertex pos="10 3 0" normal="0 -1 1" uv0="10 0" />
+        <triangle_set>
+            <material_name>checker</material_name>
+            <tri>4 5 6</tri>
+            <tri>4 6 7</tri>
+        </triangle_set>"#,
+    );
+    // Four of its normals are longer than 1.
+    assert_eq!(findings, ["W0011 2:1"]);
+    let data = &mesh.data;
+    assert_eq!((data.positions.len(), data.normals.len()), (8, 8));
+    let half = 0.5_f32.sqrt();
+    assert_eq!((data.normals[0], data.normals[7]), ([0.0, 0.0, 1.0], [0.0, -half, half]));
+    assert_eq!(data.uv_sets[0][2], [10.0, 10.0]);
+    assert_eq!(data.uv_names, [("albedo".to_owned(), 0), ("bump".to_owned(), 0)]);
+    assert_eq!(data.triangles, [[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]]);
+    assert_eq!(data.triangle_materials, [0, 0, 1, 1]);
+    assert_eq!(data.material_names, ["white", "checker"]);
+    assert_eq!(mesh.material_spans.len(), 2);
+}
+
+#[test]
+fn normals_and_uvs_may_be_missing() {
+    let (mesh, findings) = read(&(vertices([""; 3]) + SET));
+    assert!(findings.is_empty() && mesh.data.normals.is_empty() && mesh.data.uv_sets.is_empty());
+    // Where some vertices have them, the others get what they need.
+    let (mesh, findings) = read(&(vertices(["normal=\"1 0 0\"", "", "uv1='3 4'"]) + SET));
+    assert_eq!(findings, ["W0012 2:1", "W0012 2:1", "W0012 2:1"]);
+    assert_eq!(mesh.data.normals, [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, 1.0]]);
+    assert_eq!(mesh.data.uv_sets, [vec![[0.0; 2]; 3], vec![[0.0; 2], [0.0; 2], [3.0, 4.0]]]);
+}
+
+#[test]
+fn triangles_without_area_are_dropped_with_a_count() {
+    let more =
+        "<triangle_set><tri>0 0 1</tri><tri>2 1 0</tri><material_name>b</material_name></triangle_set>";
+    let (mesh, findings) = read(&(vertices([""; 3]) + SET + more));
+    assert!(findings.is_empty());
+    assert_eq!(mesh.data.degenerate_dropped, 1);
+    assert_eq!(mesh.data.triangles, [[0, 1, 2], [2, 1, 0]]);
+    assert_eq!(mesh.data.triangle_materials, [0, 1]);
+}
+
+#[test]
+fn faults_have_places() {
+    for (inside, expected) in [
+        ("<vertex/>", vec!["E0101 3:1"]),
+        ("<vertex pos='1 2'/>", vec!["E0101 3:14"]),
+        ("<vertex pos='1 2 3' normal='0 0 x'/>", vec!["E0101 3:29"]),
+        ("<vertex pos='1 2 3' uv0='0 0 0'/>", vec!["E0101 3:26"]),
+        ("<vertex pos='1 2 1e40'/>", vec!["E0101 3:14"]),
+        ("<triangle_set><material_name>w</material_name><tri>0 1 2</tri></triangle_set>", vec!["E0103 3:52"]),
+        ("<triangle_set><material_name>w</material_name><tri> 0 1 </tri></triangle_set>", vec!["E0102 3:53"]),
+        ("<triangle_set><material_name>w</material_name><tri/></triangle_set>", vec!["E0102 3:47"]),
+        ("<triangle_set></triangle_set>", vec!["E0104 3:1"]),
+        ("<triangle_set/>", vec!["E0104 3:1"]),
+        ("<expose_uv_set><index>0</index><name>a</name></expose_uv_set>", vec!["E0105 3:23"]),
+        ("<expose_uv_set><index>x</index><name>a</name></expose_uv_set>", vec!["E0105 3:23"]),
+        ("<expose_uv_set><name>a</name></expose_uv_set>", vec!["E0105 3:1"]),
+        (
+            "<vertex pos='0 0 0' uv7='1 2' colour='3'/><vertex pos='0 0 0' uv7='1 2'/>",
+            vec!["W0105 3:21", "W0105 3:31"],
+        ),
+        ("<quad>1 <b>2</b></quad><quad/>text", vec!["W0101 3:1", "W0106 3:31"]),
+    ] {
+        assert_eq!(read(inside).1, expected, "{inside}");
+    }
+}
+
+#[test]
+fn a_million_faults_are_counted_and_not_listed() {
+    let (_, findings) = read(&"<vertex/>\n".repeat(1000));
+    assert_eq!(findings.len(), 21);
+    assert_eq!(findings[20], "E0106 2:1");
+}
+
+#[test]
+fn mismatched_tags_inside() {
+    for (inside, expected) in [
+        ("<triangle_set><material_name>w</material_name>", vec!["E0006 4:1"]),
+        ("<triangle_set><material_name>w</material_nam></triangle_set>", vec!["E0006 3:31"]),
+        ("<vertex pos='0 0 0'></verteks>", vec!["E0006 3:21"]),
+        ("</foo>", vec!["E0006 3:1"]),
+    ] {
+        assert_eq!(read(inside).1, expected, "{inside}");
+    }
+}
+
+#[test]
+fn a_mesh_that_is_cut_off() {
+    let whole = format!("<scene><mesh><name>m</name><embedded>{}{SET}", vertices(["normal='0 0 1'"; 3]));
+    for length in 40..whole.len() {
+        let read = Read::text(&whole[..length]);
+        assert!(read.sink.has_errors(), "{}", &whole[..length]);
+        assert!(read.root().children.is_empty(), "what was cut off is left out");
+    }
+}
