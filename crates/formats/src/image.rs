@@ -1,0 +1,86 @@
+//! Pictures as plain texels: PNG, JPEG, TGA, BMP, TIFF, Radiance HDR (by the crate `image`) and EXR (by `exr`).
+
+use std::io::Cursor;
+
+use crate::error::{FormatError, Position};
+
+mod exr_file;
+mod raster;
+
+/// The widest and highest picture that is read.
+const MAX_SIDE: u32 = 32_768;
+/// The most memory that a decoded picture may take, in bytes.
+const MAX_BYTES: u64 = 4 << 30;
+
+/// A picture: rows from the top, texels from the left, channels of a texel together. Values are as stored: no gamma is
+/// removed, no colour space converted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Image {
+    /// Texels per row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// 1 (grey) or 3 (red, green, blue). Alpha is dropped, palettes are expanded.
+    pub channels: u8,
+    /// `width · height · channels` values.
+    pub pixels: Pixels,
+}
+
+/// Values of a picture in the precision of its file.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Pixels {
+    /// 0 to 255.
+    U8(Vec<u8>),
+    /// 0 to 65 535.
+    U16(Vec<u16>),
+    /// Unbounded; finite or not as in the file.
+    F32(Vec<f32>),
+}
+
+/// Decodes a picture. The content decides the kind where it carries a mark of one; TGA has none, so there the name's
+/// extension does.
+///
+/// # Errors
+/// For a kind that is not known, for damaged files and for pictures wider or higher than 32,768 texels or larger than
+/// 4 GiB when decoded. Positions are the file's start: the decoders do not tell more.
+pub fn decode(file_name: &str, bytes: &[u8]) -> Result<Image, FormatError> {
+    if bytes.starts_with(&exr_file::MAGIC) {
+        return exr_file::decode(bytes);
+    }
+    let by_content = ::image::guess_format(bytes).ok();
+    let by_name = || ::image::ImageFormat::from_path(file_name).ok();
+    match by_content.or_else(by_name) {
+        Some(format) if raster::is_known(format) => raster::decode(format, Cursor::new(bytes)),
+        _ => Err(FormatError::new(
+            Position::Byte(0),
+            "a picture of a known type (PNG, JPEG, TGA, BMP, TIFF, HDR, EXR)",
+            format!("'{file_name}', whose name and content are of none of them"),
+        )),
+    }
+}
+
+/// Refuses a size beyond the limits; called before anything is allocated for it.
+fn check_size(width: u64, height: u64, texel_bytes: u64) -> Result<(), FormatError> {
+    let side = u64::from(MAX_SIDE);
+    let fits = (1..=side).contains(&width) && (1..=side).contains(&height);
+    if fits && width * height * texel_bytes <= MAX_BYTES {
+        return Ok(());
+    }
+    Err(FormatError::new(
+        Position::Byte(0),
+        format!("a picture of 1 to {MAX_SIDE} texels each way and at most {MAX_BYTES} bytes"),
+        format!("{width} x {height} texels of {texel_bytes} bytes"),
+    ))
+}
+
+/// What a decoder says, as an error of ours.
+fn decoder_error(kind: &str, error: &dyn std::fmt::Display) -> FormatError {
+    FormatError::new(
+        Position::Byte(0),
+        format!("a sound {kind} file"),
+        format!("a decoder's complaint: {error}"),
+    )
+}
+
+#[cfg(test)]
+mod tests;

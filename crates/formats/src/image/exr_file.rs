@@ -1,0 +1,103 @@
+//! OpenEXR: half, float or integer channels R, G, B, or Y alone; the first layer that has them, at full resolution.
+
+use std::io::Cursor;
+
+use exr::meta::MetaData;
+use exr::prelude::*;
+
+use super::{Image, Pixels, check_size, decoder_error};
+use crate::error::{FormatError, Position};
+
+/// The bytes that every EXR file starts with.
+pub(super) const MAGIC: [u8; 4] = [0x76, 0x2F, 0x31, 0x01];
+
+/// Decodes the data window; where it lies in the display window is not told.
+pub(super) fn decode(bytes: &[u8]) -> std::result::Result<Image, FormatError> {
+    let complaint = |error: exr::error::Error| decoder_error("EXR", &error);
+    let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(complaint)?;
+    for header in &meta.headers {
+        let Vec2(width, height) = header.layer_size;
+        // What the decoder keeps of a row of the file and of ours, at four bytes a value.
+        let texel_bytes = 4 * header.channels.list.len().max(3) as u64;
+        check_size(width as u64, height as u64, texel_bytes)?;
+    }
+    let has =
+        |names: &[&str]| meta.headers.iter().any(|header| names.iter().all(|name| has_channel(header, name)));
+    if has(&["R", "G", "B"]) {
+        rgb(bytes).map_err(complaint)
+    } else if has(&["Y"]) {
+        grey(bytes).map_err(complaint)
+    } else {
+        let names: Vec<String> = meta
+            .headers
+            .iter()
+            .flat_map(|header| &header.channels.list)
+            .map(|channel| channel.name.to_string())
+            .collect();
+        Err(FormatError::new(
+            Position::Byte(0),
+            "an EXR file with channels R, G, B or Y",
+            format!("the channels {}", names.join(", ")),
+        ))
+    }
+}
+
+fn has_channel(header: &exr::meta::header::Header, name: &str) -> bool {
+    header.channels.list.iter().any(|channel| channel.name.eq(name))
+}
+
+fn rgb(bytes: &[u8]) -> exr::error::Result<Image> {
+    let image = read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .rgb_channels(
+            |size, _| Texels::<3>::new(size),
+            |texels, at, (r, g, b): (f32, f32, f32)| texels.set(at, [r, g, b]),
+        )
+        .first_valid_layer()
+        .all_attributes()
+        .non_parallel()
+        .from_buffered(Cursor::new(bytes))?;
+    Ok(image.layer_data.channel_data.pixels.into_image())
+}
+
+fn grey(bytes: &[u8]) -> exr::error::Result<Image> {
+    let image = read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .specific_channels()
+        .required("Y")
+        .collect_pixels(|size, _| Texels::<1>::new(size), |texels, at, (y,): (f32,)| texels.set(at, [y]))
+        .first_valid_layer()
+        .all_attributes()
+        .non_parallel()
+        .from_buffered(Cursor::new(bytes))?;
+    Ok(image.layer_data.channel_data.pixels.into_image())
+}
+
+/// Texels of `N` channels as they are decoded, in whatever order.
+struct Texels<const N: usize> {
+    size: Vec2<usize>,
+    values: Vec<[f32; N]>,
+}
+
+impl<const N: usize> Texels<N> {
+    fn new(size: Vec2<usize>) -> Self {
+        Self { size, values: vec![[0.0; N]; size.area()] }
+    }
+
+    fn set(&mut self, at: Vec2<usize>, texel: [f32; N]) {
+        if let Some(slot) = self.values.get_mut(at.y() * self.size.width() + at.x()) {
+            *slot = texel;
+        }
+    }
+
+    fn into_image(self) -> Image {
+        Image {
+            width: self.size.width() as u32,
+            height: self.size.height() as u32,
+            channels: N as u8,
+            pixels: Pixels::F32(self.values.into_flattened()),
+        }
+    }
+}

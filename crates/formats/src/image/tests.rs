@@ -1,0 +1,177 @@
+use std::io::Write;
+
+use ::image::{DynamicImage, GrayImage, ImageBuffer, ImageFormat, Luma, LumaA, Rgb, RgbImage, Rgba};
+use exr::prelude::{SpecificChannels, Vec2, WritableImage, f16};
+
+use super::*;
+
+const WIDTH: u32 = 3;
+const HEIGHT: u32 = 2;
+
+/// A value that differs at every texel and channel.
+fn value(x: u32, y: u32, channel: u32) -> u32 {
+    1 + 40 * x + 100 * y + 7 * channel
+}
+
+fn encode(picture: &DynamicImage, format: ImageFormat) -> Vec<u8> {
+    let mut bytes = Cursor::new(Vec::new());
+    picture.write_to(&mut bytes, format).unwrap();
+    bytes.into_inner()
+}
+
+/// All values, rows from the top.
+fn values(channels: u32) -> Vec<u32> {
+    let texels = (0..HEIGHT).flat_map(|y| (0..WIDTH).map(move |x| (x, y)));
+    texels.flat_map(|(x, y)| (0..channels).map(move |c| value(x, y, c))).collect()
+}
+
+fn rgb8() -> DynamicImage {
+    RgbImage::from_fn(WIDTH, HEIGHT, |x, y| Rgb([0, 1, 2].map(|c| value(x, y, c) as u8))).into()
+}
+
+fn check(name: &str, bytes: &[u8], channels: u8, pixels: &Pixels) {
+    let image = decode(name, bytes).unwrap();
+    assert_eq!((image.width, image.height, image.channels), (WIDTH, HEIGHT, channels), "{name}");
+    assert_eq!(&image.pixels, pixels, "{name}");
+}
+
+#[test]
+fn lossless_kinds_of_eight_bits() {
+    let expected = Pixels::U8(values(3).into_iter().map(|v| v as u8).collect());
+    for (name, format) in [
+        ("a.png", ImageFormat::Png),
+        ("a.tga", ImageFormat::Tga),
+        ("a.bmp", ImageFormat::Bmp),
+        ("a.tiff", ImageFormat::Tiff),
+    ] {
+        let bytes = encode(&rgb8(), format);
+        check(name, &bytes, 3, &expected);
+        if format != ImageFormat::Tga {
+            check("no extension", &bytes, 3, &expected);
+        }
+    }
+}
+
+#[test]
+fn alpha_is_dropped_and_grey_stays_grey() {
+    let rgba = ImageBuffer::from_fn(WIDTH, HEIGHT, |x, y| {
+        let [r, g, b] = [0, 1, 2].map(|c| value(x, y, c) as u8);
+        Rgba([r, g, b, 9])
+    });
+    let rgb = Pixels::U8(values(3).into_iter().map(|v| v as u8).collect());
+    check("a.png", &encode(&rgba.into(), ImageFormat::Png), 3, &rgb);
+    let grey_alpha = ImageBuffer::from_fn(WIDTH, HEIGHT, |x, y| LumaA([value(x, y, 0) as u8, 9]));
+    let grey = Pixels::U8(values(1).into_iter().map(|v| v as u8).collect());
+    check("a.png", &encode(&grey_alpha.into(), ImageFormat::Png), 1, &grey);
+    let plain = GrayImage::from_fn(WIDTH, HEIGHT, |x, y| Luma([value(x, y, 0) as u8]));
+    check("a.png", &encode(&plain.into(), ImageFormat::Png), 1, &grey);
+}
+
+#[test]
+fn sixteen_bits_stay() {
+    let rgb = ImageBuffer::from_fn(WIDTH, HEIGHT, |x, y| Rgb([0, 1, 2].map(|c| 200 * value(x, y, c) as u16)));
+    let expected = Pixels::U16(values(3).into_iter().map(|v| 200 * v as u16).collect());
+    check("a.png", &encode(&DynamicImage::ImageRgb16(rgb.clone()), ImageFormat::Png), 3, &expected);
+    check("a.tif", &encode(&DynamicImage::ImageRgb16(rgb), ImageFormat::Tiff), 3, &expected);
+    let grey = ImageBuffer::from_fn(WIDTH, HEIGHT, |x, y| Luma([200 * value(x, y, 0) as u16]));
+    let expected = Pixels::U16(values(1).into_iter().map(|v| 200 * v as u16).collect());
+    check("a.png", &encode(&DynamicImage::ImageLuma16(grey), ImageFormat::Png), 1, &expected);
+}
+
+#[test]
+fn a_palette_is_expanded() {
+    // A BMP of 2 x 1 texels of 8 bits with a palette of two colours (blue, green, red, 0).
+    let mut bmp = b"BM".to_vec();
+    for word in [66_u32, 0, 62, 40, 2, 1] {
+        bmp.write_all(&word.to_le_bytes()).unwrap();
+    }
+    bmp.write_all(&[1, 0, 8, 0]).unwrap();
+    for word in [0_u32, 4, 0, 0, 2, 0] {
+        bmp.write_all(&word.to_le_bytes()).unwrap();
+    }
+    bmp.write_all(&[30, 20, 10, 0, 60, 50, 40, 0, 1, 0, 0, 0]).unwrap();
+    let image = decode("a.bmp", &bmp).unwrap();
+    assert_eq!((image.width, image.height, image.channels), (2, 1, 3));
+    assert_eq!(image.pixels, Pixels::U8(vec![40, 50, 60, 10, 20, 30]));
+}
+
+#[test]
+fn a_jpeg_keeps_a_flat_colour() {
+    let flat = RgbImage::from_pixel(16, 8, Rgb([200, 100, 50]));
+    let image = decode("a.jpg", &encode(&flat.into(), ImageFormat::Jpeg)).unwrap();
+    assert_eq!((image.width, image.height, image.channels), (16, 8, 3));
+    let Pixels::U8(values) = image.pixels else { panic!("eight bits") };
+    // Quantisation of the mean: a few steps of 255.
+    for (i, value) in values.iter().enumerate() {
+        assert!(value.abs_diff([200, 100, 50][i % 3]) <= 3, "{value} at {i}");
+    }
+}
+
+#[test]
+fn radiance_hdr_keeps_values_beyond_one() {
+    let bright = ImageBuffer::from_pixel(16, 8, Rgb([64.0_f32, 2.0, 0.5]));
+    let image = decode("a.hdr", &encode(&DynamicImage::ImageRgb32F(bright), ImageFormat::Hdr)).unwrap();
+    let Pixels::F32(values) = image.pixels else { panic!("floats") };
+    assert_eq!(values.len(), 16 * 8 * 3);
+    // RGBE shares one exponent: steps of 64 / 128 here.
+    for (i, value) in values.iter().enumerate() {
+        assert!((value - [64.0, 2.0, 0.5][i % 3]).abs() <= 0.5, "{value} at {i}");
+    }
+}
+
+#[test]
+fn exr_of_half_or_float_with_or_without_colour() {
+    let size = Vec2(WIDTH as usize, HEIGHT as usize);
+    let at = |p: Vec2<usize>, c: u32| value(p.x() as u32, p.y() as u32, c) as f32;
+    let mut float = Cursor::new(Vec::new());
+    let channels = SpecificChannels::rgb(|p: Vec2<usize>| (at(p, 0), at(p, 1), at(p, 2)));
+    exr::prelude::Image::from_channels(size, channels)
+        .write()
+        .non_parallel()
+        .to_buffered(&mut float)
+        .unwrap();
+    let rgb = Pixels::F32(values(3).into_iter().map(|v| v as f32).collect());
+    check("a.exr", float.get_ref(), 3, &rgb);
+    let mut half = Cursor::new(Vec::new());
+    let channels = SpecificChannels::rgba(|p: Vec2<usize>| {
+        (f16::from_f32(at(p, 0)), f16::from_f32(at(p, 1)), f16::from_f32(at(p, 2)), f16::ONE)
+    });
+    exr::prelude::Image::from_channels(size, channels).write().non_parallel().to_buffered(&mut half).unwrap();
+    check("named wrongly.png", half.get_ref(), 3, &rgb);
+    let mut grey = Cursor::new(Vec::new());
+    let channels = SpecificChannels::build().with_channel("Y").with_pixel_fn(|p: Vec2<usize>| (at(p, 0),));
+    exr::prelude::Image::from_channels(size, channels).write().non_parallel().to_buffered(&mut grey).unwrap();
+    check("a.exr", grey.get_ref(), 1, &Pixels::F32(values(1).into_iter().map(|v| v as f32).collect()));
+    let mut depth = Cursor::new(Vec::new());
+    let channels = SpecificChannels::build().with_channel("Z").with_pixel_fn(|p: Vec2<usize>| (at(p, 0),));
+    exr::prelude::Image::from_channels(size, channels)
+        .write()
+        .non_parallel()
+        .to_buffered(&mut depth)
+        .unwrap();
+    assert!(decode("a.exr", depth.get_ref()).unwrap_err().found.contains("channels Z"));
+}
+
+#[test]
+fn what_is_no_picture_or_too_large_is_refused() {
+    let error = decode("a.gif", b"GIF89a").unwrap_err().to_string();
+    assert!(error.contains("PNG, JPEG, TGA, BMP, TIFF, HDR, EXR"), "{error}");
+    assert!(decode("a.png", &encode(&rgb8(), ImageFormat::Png)[..40]).is_err());
+    // The width of a PNG stands at bytes 16 to 19; the checksum after the header is bytes 29 to 32.
+    let mut wide = encode(&rgb8(), ImageFormat::Png);
+    wide[16..20].copy_from_slice(&1_000_000_000_u32.to_be_bytes());
+    assert!(decode("a.png", &wide).is_err());
+    // A TGA header of 32,767 x 32,767 texels of 24 bits without data; 65,535 is beyond the limit.
+    for side in [32_767_u16, 65_535] {
+        let mut tga = vec![0; 18];
+        tga[2] = 2;
+        tga[12..14].copy_from_slice(&side.to_le_bytes());
+        tga[14..16].copy_from_slice(&side.to_le_bytes());
+        tga[16] = 24;
+        assert!(decode("a.tga", &tga).is_err());
+    }
+    assert!(check_size(32_768, 32_768, 4).is_ok());
+    assert!(check_size(32_768, 32_768, 6).is_err());
+    assert!(check_size(0, 5, 3).is_err());
+    assert!(check_size(32_769, 1, 3).is_err());
+}
