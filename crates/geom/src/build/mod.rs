@@ -6,6 +6,7 @@
 mod binary;
 mod binned;
 mod collapse;
+mod reinsert;
 
 pub(crate) use binary::Prim;
 pub(crate) use binned::split_all;
@@ -40,7 +41,11 @@ pub(crate) fn build_triangles(soup: &Soup, builder: Builder) -> (WideTree, usize
         Builder::Fast => 4,
         Builder::Quality => 1,
     };
-    let binary = split_all(&mut prims, max_leaf, TRIANGLE_DEPTH);
+    let mut binary = split_all(&mut prims, max_leaf, TRIANGLE_DEPTH);
+    if builder == Builder::Quality {
+        // A tree that has become too deep is left as it was.
+        binary = reinsert::improve(&binary, TRIANGLE_DEPTH).unwrap_or(binary);
+    }
     let mut maker = BlockMaker { soup, blocks: Vec::new() };
     let mut nodes = Vec::new();
     let root = collapse(&binary, &prims, &mut maker, &mut nodes);

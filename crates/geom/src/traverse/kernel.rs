@@ -229,8 +229,10 @@ impl<L: Lanes> TriangleTest<L> {
             return BlockHits { t: zero, u: zero, v: zero, mask };
         }
         let r = L::splat(L::Scalar::ONE).div(u.add(v).add(w));
-        let t = u.mul(az).add(v.mul(bz).add(w.mul(cz))).mul(self.scale).mul(r);
-        BlockHits { t, u: v.mul(r), v: w.mul(r), mask: mask & self.t_min.lt(t) & t.lt(t_max) }
+        // Barycentric coordinates first: their products with the distances do not overflow.
+        let (u, v, w) = (u.mul(r), v.mul(r), w.mul(r));
+        let t = u.mul(az).add(v.mul(bz).add(w.mul(cz))).mul(self.scale);
+        BlockHits { t, u: v, v: w, mask: mask & self.t_min.lt(t) & t.lt(t_max) }
     }
 }
 
@@ -247,6 +249,7 @@ pub(super) fn walk<L: Lanes, const ANY: bool, S: Specials<L::Scalar>>(
     let triangles = TriangleTest::<L>::new(ray);
     let mut t_max = L::splat(hit.t);
     let mut stack = Stack::<STACK_SIZE>::new();
+    let mut top = 0;
     let mut found = false;
     let mut current = root;
     loop {
@@ -258,7 +261,7 @@ pub(super) fn walk<L: Lanes, const ANY: bool, S: Specials<L::Scalar>>(
                 alive = false;
                 break;
             }
-            current = descend::<L, ANY>(node, enter, mask, &mut stack);
+            (current, top) = descend::<L, ANY>(node, enter, mask, &mut stack, top);
         }
         if alive {
             let changed = if S::PRESENT && current.blocks() == 0 {
@@ -275,7 +278,11 @@ pub(super) fn walk<L: Lanes, const ANY: bool, S: Specials<L::Scalar>>(
             }
         }
         loop {
-            let Some(entry) = stack.pop() else { return found };
+            if top == 0 {
+                return found;
+            }
+            top -= 1;
+            let entry = stack.get(top);
             if ANY || L::Scalar::from_key((entry >> 32) as u32) < hit.t {
                 current = Child(entry as u32);
                 break;
@@ -284,43 +291,49 @@ pub(super) fn walk<L: Lanes, const ANY: bool, S: Specials<L::Scalar>>(
     }
 }
 
-/// Picks the child to go on with and puts the others on the stack, the nearest on top.
+/// Picks the child to go on with and puts the others on the stack, the nearest on top; returns the
+/// child and the stack's new height.
 #[inline(always)]
 fn descend<L: Lanes, const ANY: bool>(
     node: &Node,
     enter: L,
     mask: u32,
     stack: &mut Stack<STACK_SIZE>,
-) -> Child {
+    mut top: usize,
+) -> (Child, usize) {
     let first = mask.trailing_zeros() as usize;
     let mut rest = mask & (mask - 1);
-    let child = |i: usize| place(&node.children, i);
+    let child = |i: usize| *place(&node.children, i);
     if rest == 0 {
-        return *child(first);
+        return (child(first), top);
     }
     if ANY {
         while rest != 0 {
-            stack.push(u64::from(child(rest.trailing_zeros() as usize).0));
+            stack.put(top, u64::from(child(rest.trailing_zeros() as usize).0));
+            top += 1;
             rest &= rest - 1;
         }
-        return *child(first);
+        return (child(first), top);
     }
     let distances = enter.to_array();
     let entry = |i: usize| u64::from(place(&distances, i).to_key()) << 32 | u64::from(child(i).0);
     let (a, b) = (entry(first), entry(rest.trailing_zeros() as usize));
     rest &= rest - 1;
     let (nearer, farther) = if a < b { (a, b) } else { (b, a) };
-    stack.push(farther);
+    stack.put(top, farther);
     if rest == 0 {
-        return Child(nearer as u32);
+        return (Child(nearer as u32), top + 1);
     }
-    let base = stack.len() - 1;
-    stack.push(nearer);
+    let base = top;
+    stack.put(top + 1, nearer);
+    top += 2;
     while rest != 0 {
-        stack.insert_descending(base, entry(rest.trailing_zeros() as usize));
+        stack.put_sorted(base, top, entry(rest.trailing_zeros() as usize));
+        top += 1;
         rest &= rest - 1;
     }
-    Child(stack.pop().unwrap_or(nearer) as u32)
+    top -= 1;
+    (Child(stack.get(top) as u32), top)
 }
 
 /// Tests the blocks of a leaf against what the ray has met so far.

@@ -36,54 +36,42 @@ pub(super) fn block_at(blocks: &[Block], leaf: Child, i: u32) -> &Block {
 }
 
 /// Children still to be visited: entry distance in the upper half, child in the lower.
-pub(super) struct Stack<const N: usize> {
-    entries: [MaybeUninit<u64>; N],
-    len: usize,
-}
+///
+/// The caller keeps the number of entries, `top`, in a variable of its own: inside this struct it
+/// would live in memory and every push would wait for the store of the last.
+pub(super) struct Stack<const N: usize>([MaybeUninit<u64>; N]);
 
 impl<const N: usize> Stack<N> {
     #[inline(always)]
     pub(super) fn new() -> Self {
-        Self { entries: [const { MaybeUninit::uninit() }; N], len: 0 }
+        Self([const { MaybeUninit::uninit() }; N])
     }
 
+    /// Writes an entry above `top` others.
     #[inline(always)]
-    pub(super) fn len(&self) -> usize {
-        self.len
-    }
-
-    #[inline(always)]
-    pub(super) fn push(&mut self, entry: u64) {
-        debug_assert!(self.len < N);
+    pub(super) fn put(&mut self, top: usize, entry: u64) {
+        debug_assert!(top < N);
         // SAFETY: no tree whose `stack_need` exceeds N is ever traversed.
-        unsafe { self.entries.get_unchecked_mut(self.len) }.write(entry);
-        self.len += 1;
+        unsafe { self.0.get_unchecked_mut(top) }.write(entry);
     }
 
+    /// The entry above `top` others, which has been put there.
     #[inline(always)]
-    pub(super) fn pop(&mut self) -> Option<u64> {
-        self.len = self.len.checked_sub(1)?;
-        // SAFETY: all entries below the old length were written, and the length never exceeds N.
-        Some(unsafe { self.entries.get_unchecked(self.len).assume_init() })
+    pub(super) fn get(&self, top: usize) -> u64 {
+        debug_assert!(top < N);
+        // SAFETY: entries are put before they are got, from the bottom on, and `top` is below N as in `put`.
+        unsafe { self.0.get_unchecked(top).assume_init() }
     }
 
-    /// Pushes into the run from `base` on, which falls from bottom to top, keeping it so.
+    /// Puts an entry above `top` others into the run from `base` on, which falls from bottom to top
+    /// and goes on doing so.
     #[inline(always)]
-    pub(super) fn insert_descending(&mut self, base: usize, entry: u64) {
-        debug_assert!(self.len < N);
-        let mut at = self.len;
-        // SAFETY: `base < at <= len < N`, and entries below the length were written.
-        unsafe {
-            while at > base {
-                let below = self.entries.get_unchecked(at - 1).assume_init();
-                if below >= entry {
-                    break;
-                }
-                self.entries.get_unchecked_mut(at).write(below);
-                at -= 1;
-            }
-            self.entries.get_unchecked_mut(at).write(entry);
+    pub(super) fn put_sorted(&mut self, base: usize, top: usize, entry: u64) {
+        let mut at = top;
+        while at > base && self.get(at - 1) < entry {
+            self.put(at, self.get(at - 1));
+            at -= 1;
         }
-        self.len += 1;
+        self.put(at, entry);
     }
 }
