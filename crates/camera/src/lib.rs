@@ -1,1 +1,6 @@
-//! placeholder
+//! The camera: where paths begin.
+
+pub mod declare;
+mod thin_lens;
+
+pub use thin_lens::{CameraRay, ThinLens, ThinLensParameters};

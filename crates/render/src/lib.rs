@@ -1,1 +1,16 @@
-//! placeholder
+//! Rendering as a running thing: threads, halting, saving, events.
+//!
+//! A [`Session`] renders a scene until it is halted; console, window, network slave and scripts are
+//! equal clients of it. Below this crate nothing starts a thread, reads a clock or touches a disk.
+
+pub mod disk;
+mod options;
+pub mod output;
+pub mod pool;
+mod progress;
+mod session;
+mod worker;
+
+pub use options::{Halt, Options};
+pub use progress::Progress;
+pub use session::{Event, HaltReason, Session, SessionError};

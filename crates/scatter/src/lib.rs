@@ -1,1 +1,18 @@
-//! placeholder
+//! How surfaces and media scatter light.
+//!
+//! - [`materials`]: one file each, with the element's declaration, what is read from it, and the
+//!   scattering model that it bakes for a path;
+//! - [`Scatter`]: what the author of a model writes, in the local frame, without cosines;
+//! - [`ShadingPoint`]: the same at a point of a surface, with cosines and corrections for shading normals.
+
+pub mod materials;
+pub mod media;
+pub mod phase;
+mod reflectance;
+mod scatter;
+mod shading;
+
+pub use materials::{Leaf, Material, MaterialContext, MaterialResources};
+pub use reflectance::Reflectance;
+pub use scatter::{LocalSample, Scatter};
+pub use shading::{Evaluation, Mode, Scattered, ShadingPoint};

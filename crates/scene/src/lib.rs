@@ -1,3 +1,16 @@
-//! Scenes: the declaration of everything that a scene can hold, and what is made of it.
+//! The scene: from files to what can be traced.
+//!
+//! [`load`] reads a scene with all that it includes, checks everything against the declarations in
+//! [`schema`] and lowers it to a [`Scene`]: plain data in arenas, immutable and shared by all threads.
+//! What is wrong goes to a sink with its place; reading never stops at the first fault.
 
+pub mod codes;
+mod load;
+mod lower;
+mod scene;
 pub mod schema;
+mod settings;
+
+pub use load::{LoadOptions, Loaded, load};
+pub use scene::{FilmSettings, OutputSettings, Scene, SceneStats, TransportSettings};
+pub use settings::{Listed, Origin, Settings};

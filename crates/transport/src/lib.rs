@@ -1,1 +1,12 @@
-//! placeholder
+//! Light transport: which numbers a sample is made of, the techniques that turn them into light on
+//! the film, and the drivers that decide which samples to take.
+//!
+//! - [`sampler`]: primary samples, in blocks of four numbers with fixed meaning;
+//! - [`technique`]: path tracing;
+//! - [`driver`]: independent samples in low-discrepancy order.
+//!
+//! Nothing here starts a thread, reads a clock, allocates for a sample or prints.
+
+pub mod driver;
+pub mod sampler;
+pub mod technique;

@@ -1,6 +1,7 @@
 //! Geometry, declared.
 
 use indigo_decl::{Block, Field, Group, Kind, Later, Presence, Range};
+use indigo_igs::EMBEDDED;
 use indigo_light::kinds::placement::{MESH_NAME, POS, ROTATION, SCALE};
 
 const MATERIAL_NAME: Field =
@@ -29,9 +30,9 @@ pub static MESH: Block = Block::new(
         ),
         Field::new(
             "embedded",
-            Kind::EmbeddedMesh,
+            Kind::EmbeddedMesh(&EMBEDDED),
             Presence::Optional,
-            "The mesh is written here, as described below.",
+            "The mesh is written here.",
         ),
         Field::new(
             "path",

@@ -76,3 +76,14 @@ pub static SCENE: Block = Block::new(
     <sphere><center>0 0 1</center><radius>1</radius><material_name>white</material_name></sphere>
 </scene>",
 );
+
+/// The reference of the scene format, as Markdown.
+pub fn reference() -> String {
+    format!("{}{}", include_str!("reference.md"), indigo_decl::reference::markdown(&SCENE))
+}
+
+/// The list of diagnostics with their codes, as Markdown.
+pub fn errors() -> String {
+    let codes = [indigo_igs::codes::ALL, indigo_decl::codes::ALL];
+    format!("{}{}", include_str!("errors.md"), indigo_decl::reference::codes(&codes))
+}

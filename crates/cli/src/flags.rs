@@ -1,0 +1,263 @@
+//! The command line: one table, from which parsing, help and suggestions come.
+//!
+//! Long options of one dash are the manual's; each also works with two. Options may stand before or
+//! after the scene.
+
+use std::ffi::OsString;
+
+/// What an option does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Action {
+    /// Sets a setting of `renderer_settings` to the option's value.
+    Setting(&'static str),
+    /// Sets the number of threads.
+    Threads,
+    /// Names the random sequence.
+    Seed,
+    /// Names the picture.
+    Output,
+    /// Reads and reports, without rendering.
+    Check,
+    /// Lists the settings.
+    PrintSettings,
+    /// Prints the text entries of a PNG.
+    DumpMetadata,
+    /// Diagnostics as JSON.
+    Json,
+    /// Prints the help.
+    Help,
+    /// Prints the version.
+    Version,
+}
+
+/// An option.
+#[derive(Debug)]
+pub struct Flag {
+    /// Name without dashes.
+    pub name: &'static str,
+    /// Another name, if any.
+    pub alias: Option<&'static str>,
+    /// What stands for its value in the help; `None` if it takes none.
+    pub value: Option<&'static str>,
+    /// What it does, for the help.
+    pub doc: &'static str,
+    /// What it does.
+    pub action: Action,
+}
+
+const fn flag(name: &'static str, value: Option<&'static str>, action: Action, doc: &'static str) -> Flag {
+    Flag { name, alias: None, value, doc, action }
+}
+
+/// All options.
+pub static FLAGS: &[Flag] = &[
+    flag("halt", Some("SECONDS"), Action::Setting("halt_time"), "Stop after this time of rendering."),
+    flag(
+        "haltspp",
+        Some("N"),
+        Action::Setting("halt_samples_per_pixel"),
+        "Stop at this number of samples per pixel.",
+    ),
+    flag(
+        "o",
+        Some("PATH"),
+        Action::Output,
+        "Write the picture to PATH (.png); other files take the same stem. Without it: renders/im_<UTC time>_<scene>.png.",
+    ),
+    flag("t", Some("N"), Action::Threads, "Render with N threads. Without it: as many as there are logical cores."),
+    flag("seed", Some("N"), Action::Seed, "Choose the random sequence: the same seed gives the same picture."),
+    flag("check", None, Action::Check, "Read the scene and report what is wrong with it, without rendering."),
+    flag("print-settings", None, Action::PrintSettings, "List each setting, its value, and where the value comes from."),
+    flag("dumpmetadata", Some("PNG"), Action::DumpMetadata, "Print what a picture says about how it was rendered."),
+    flag("json", None, Action::Json, "Report errors and warnings as JSON, a line each."),
+    flag("help", None, Action::Help, "Print this help."),
+    Flag {
+        name: "version",
+        alias: Some("v"),
+        value: None,
+        doc: "Print the version.",
+        action: Action::Version,
+    },
+];
+
+/// Options of the manual that this version does not have yet, by name: better a clear answer than a guess.
+const NOT_YET: &[&str] = &["h", "n", "p", "r", "ptest", "pack"];
+
+/// The command line, understood.
+#[derive(Debug, Default, PartialEq)]
+pub struct Arguments {
+    /// The scene.
+    pub scene: Option<String>,
+    /// Settings, by name and text.
+    pub settings: Vec<(&'static str, String)>,
+    /// Seed of the random sequence.
+    pub seed: u64,
+    /// Path of the picture.
+    pub output: Option<String>,
+    /// Only check.
+    pub check: bool,
+    /// Only list the settings.
+    pub print_settings: bool,
+    /// Only print a picture's metadata.
+    pub dump_metadata: Option<String>,
+    /// Diagnostics as JSON.
+    pub json: bool,
+    /// Only print the help.
+    pub help: bool,
+    /// Only print the version.
+    pub version: bool,
+}
+
+/// Understands a command line.
+///
+/// # Errors
+/// A sentence for the user, with the nearest option where one is misspelt.
+pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Arguments, String> {
+    let mut parsed = Arguments::default();
+    let mut rest = arguments.into_iter();
+    while let Some(argument) = rest.next() {
+        let argument = argument.into_string().map_err(|a| format!("{} is not Unicode text", a.display()))?;
+        let Some(written) = argument.strip_prefix('-').filter(|a| !a.is_empty()) else {
+            if let Some(before) = parsed.scene.replace(argument.clone()) {
+                return Err(format!("two scenes are given, {before} and {argument}; one is rendered at a time"));
+            }
+            continue;
+        };
+        let written = written.strip_prefix('-').unwrap_or(written);
+        let (name, attached) = match written.split_once('=') {
+            Some((name, value)) => (name, Some(value.to_owned())),
+            None => (written, None),
+        };
+        let flag = find(name)?;
+        let value = match (flag.value, attached) {
+            (None, None) => String::new(),
+            (None, Some(_)) => return Err(format!("-{} takes no value", flag.name)),
+            (Some(_), Some(value)) => value,
+            (Some(what), None) => rest
+                .next()
+                .and_then(|v| v.into_string().ok())
+                .ok_or_else(|| format!("-{} needs a value: -{} {what}", flag.name, flag.name))?,
+        };
+        apply(flag, value, &mut parsed)?;
+    }
+    Ok(parsed)
+}
+
+fn find(name: &str) -> Result<&'static Flag, String> {
+    if let Some(flag) = FLAGS.iter().find(|f| f.name == name || f.alias == Some(name)) {
+        return Ok(flag);
+    }
+    if NOT_YET.contains(&name) {
+        return Err(format!("-{name} is not in this version yet"));
+    }
+    let hint = indigo_diag::nearest(name, FLAGS.iter().map(|f| f.name));
+    Err(match hint {
+        Some(hint) => format!("unknown option -{name}; did you mean -{hint}?"),
+        None => format!("unknown option -{name}; --help lists all options"),
+    })
+}
+
+fn apply(flag: &Flag, value: String, parsed: &mut Arguments) -> Result<(), String> {
+    match flag.action {
+        // The setting's own declaration checks the value.
+        Action::Setting(name) => parsed.settings.push((name, value)),
+        Action::Threads => {
+            parsed.settings.push(("num_threads", value));
+            parsed.settings.push(("auto_choose_num_threads", "false".to_owned()));
+        }
+        Action::Seed => {
+            parsed.seed =
+                value.parse().map_err(|_| format!("-seed needs a whole number from 0 to {}, not {value}", u64::MAX))?;
+        }
+        Action::Output => parsed.output = Some(value),
+        Action::Check => parsed.check = true,
+        Action::PrintSettings => parsed.print_settings = true,
+        Action::DumpMetadata => parsed.dump_metadata = Some(value),
+        Action::Json => parsed.json = true,
+        Action::Help => parsed.help = true,
+        Action::Version => parsed.version = true,
+    }
+    Ok(())
+}
+
+/// The help.
+pub fn help() -> String {
+    let mut text = String::from(
+        "Indigo renders scenes by the laws of light.\n\n\
+         Usage: indigo_console SCENE.igs [options]\n\n\
+         Rendering goes on, and the picture is saved again and again, until Ctrl-C or a halting\n\
+         condition. Exit status: 0 rendered, 1 rendering or writing failed, 2 bad scene or usage.\n\n\
+         Options (with one dash or two, before or after the scene):\n",
+    );
+    for flag in FLAGS {
+        let alias = flag.alias.map(|a| format!(", -{a}")).unwrap_or_default();
+        let left = format!("-{}{alias} {}", flag.name, flag.value.unwrap_or_default());
+        let lines = wrap(flag.doc, 72);
+        text.push_str(&format!("  {:<20} {}\n", left.trim_end(), lines[0]));
+        for line in &lines[1..] {
+            text.push_str(&format!("  {:<20} {line}\n", ""));
+        }
+    }
+    text
+}
+
+/// Breaks a text into lines of at most `width` characters (longer words stand alone); never empty.
+fn wrap(text: &str, width: usize) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for word in text.split(' ') {
+        let line = lines.last_mut().map_or(0, |l| l.len());
+        if line > 0 && line + 1 + word.len() > width {
+            lines.push(String::new());
+        }
+        if let Some(last) = lines.last_mut() {
+            if !last.is_empty() {
+                last.push(' ');
+            }
+            last.push_str(word);
+        }
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parsed(words: &[&str]) -> Result<Arguments, String> {
+        parse(words.iter().map(OsString::from))
+    }
+
+    #[test]
+    fn options_stand_anywhere_with_one_dash_or_two() {
+        let a = parsed(&["-haltspp", "64", "a.igs", "--o", "x.png", "-t", "2", "--seed=7"]).unwrap();
+        assert_eq!(a.scene.as_deref(), Some("a.igs"));
+        assert_eq!(a.output.as_deref(), Some("x.png"));
+        assert_eq!(a.seed, 7);
+        let settings: Vec<_> = a.settings.iter().map(|(n, v)| (*n, v.as_str())).collect();
+        assert_eq!(
+            settings,
+            [("halt_samples_per_pixel", "64"), ("num_threads", "2"), ("auto_choose_num_threads", "false")]
+        );
+    }
+
+    #[test]
+    fn mistakes_get_a_helpful_answer() {
+        let error = |words: &[&str]| parsed(words).unwrap_err();
+        assert_eq!(error(&["-haltsp", "3"]), "unknown option -haltsp; did you mean -haltspp?");
+        assert_eq!(error(&["-halt"]), "-halt needs a value: -halt SECONDS");
+        assert_eq!(error(&["a.igs", "b.igs"]), "two scenes are given, a.igs and b.igs; one is rendered at a time");
+        assert_eq!(error(&["--check=1"]), "-check takes no value");
+        assert_eq!(error(&["-n", "m"]), "-n is not in this version yet");
+        assert!(error(&["-seed", "-3"]).contains("whole number"));
+    }
+
+    #[test]
+    fn every_option_is_in_the_help_and_has_a_name_of_its_own() {
+        let help = help();
+        for (i, flag) in FLAGS.iter().enumerate() {
+            assert!(help.contains(&format!("  -{}", flag.name)));
+            assert!(FLAGS[i + 1..].iter().all(|f| f.name != flag.name));
+        }
+        assert!(help.lines().all(|l| l.len() <= 100), "{help}");
+    }
+}

@@ -1,0 +1,71 @@
+//! Where things are on this machine.
+
+use std::path::{Path, PathBuf};
+use std::time::{SystemTime, UNIX_EPOCH};
+
+/// The settings file: in the current directory, else beside the program.
+pub fn inifile() -> Option<String> {
+    const NAME: &str = "inifile.xml";
+    let beside = program_directory().map(|d| d.join(NAME));
+    std::iter::once(PathBuf::from(NAME)).chain(beside).find(|p| p.is_file()).map(|p| p.display().to_string())
+}
+
+/// Where files that come with the program are.
+pub fn resource_directories() -> Vec<PathBuf> {
+    let named = std::env::var_os("INDIGO_RESOURCES").map(PathBuf::from);
+    named.into_iter().chain(program_directory()).collect()
+}
+
+fn program_directory() -> Option<PathBuf> {
+    Some(std::env::current_exe().ok()?.parent()?.to_path_buf())
+}
+
+/// Where built trees are kept: the user's cache directory, or `INDIGO_CACHE`.
+pub fn tree_cache() -> PathBuf {
+    let from = |name: &str| std::env::var_os(name).filter(|v| !v.is_empty()).map(PathBuf::from);
+    let base = from("INDIGO_CACHE")
+        .or_else(|| from("XDG_CACHE_HOME").map(|d| d.join("indigo")))
+        .or_else(|| from("LOCALAPPDATA").map(|d| d.join("Indigo/cache")))
+        .or_else(|| from("HOME").map(|d| d.join(".cache/indigo")));
+    base.unwrap_or_else(std::env::temp_dir).join("tree_cache")
+}
+
+/// The picture's path where none is given: renders/im_<UTC time>_<scene>.png.
+pub fn picture_of(scene: &str, now: SystemTime) -> PathBuf {
+    let stem = Path::new(scene).file_stem().map_or_else(|| "scene".into(), |s| s.to_string_lossy());
+    Path::new("renders").join(format!("im_{}_{stem}.png", utc(now)))
+}
+
+/// A moment as 20080325T142301Z.
+fn utc(now: SystemTime) -> String {
+    let s = now.duration_since(UNIX_EPOCH).map_or(0, |d| d.as_secs());
+    let (year, month, day) = civil_from_days(s / 86_400);
+    format!("{year:04}{month:02}{day:02}T{:02}{:02}{:02}Z", s / 3600 % 24, s / 60 % 60, s % 60)
+}
+
+/// Gregorian date of a day counted from 1970-01-01. Eras of 400 years begin on 1 March of year 0, so
+/// that the leap day is the last of its year.
+fn civil_from_days(days: u64) -> (u64, u64, u64) {
+    let shifted = days + 719_468;
+    let (era, day) = (shifted / 146_097, shifted % 146_097);
+    let year = (day - day / 1460 + day / 36_524 - day / 146_096) / 365;
+    let day_of_year = day - (365 * year + year / 4 - year / 100);
+    let month = (5 * day_of_year + 2) / 153;
+    let day_of_month = day_of_year - (153 * month + 2) / 5 + 1;
+    let month = if month < 10 { month + 3 } else { month - 9 };
+    (era * 400 + year + u64::from(month <= 2), month, day_of_month)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Duration;
+
+    #[test]
+    fn pictures_are_named_by_time_and_scene() {
+        let at = |s| picture_of("a/b/box.igs", UNIX_EPOCH + Duration::from_secs(s));
+        assert_eq!(at(1_206_454_981), Path::new("renders/im_20080325T142301Z_box.png"));
+        assert_eq!(at(951_782_400), Path::new("renders/im_20000229T000000Z_box.png"));
+        assert_eq!(at(0), Path::new("renders/im_19700101T000000Z_box.png"));
+    }
+}

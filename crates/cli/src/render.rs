@@ -1,0 +1,187 @@
+//! Rendering a scene until it is done, saving on the way.
+
+use crate::console::{Console, progress_text, scaled};
+use crate::flags::Arguments;
+use crate::{FAILED, RENDERED, VERSION, paths};
+use indigo_render::output::{OutputPaths, SaveError, SaveJob, Saving};
+use indigo_render::{Event, Halt, HaltReason, Options, Progress, Session};
+use indigo_scene::{OutputSettings, Scene};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::{Duration, Instant, SystemTime};
+
+/// How often Ctrl-C was pressed.
+static INTERRUPTS: AtomicUsize = AtomicUsize::new(0);
+
+/// How often the progress line is renewed on a terminal, and a line written elsewhere.
+const ON_TERMINAL: Duration = Duration::from_millis(250);
+const ELSEWHERE: Duration = Duration::from_secs(10);
+
+/// Number of logical cores.
+pub fn logical_cores() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
+}
+
+/// Renders a scene; the exit status.
+pub fn render(scene: Scene, arguments: &Arguments, console: &mut Console) -> u8 {
+    let scene = Arc::new(scene);
+    describe(&scene, console);
+    let options = Options {
+        threads: scene.output.threads.unwrap_or_else(logical_cores),
+        seed: arguments.seed,
+        halt: halt(&scene.output),
+        ..Options::default()
+    };
+    let png = arguments.output.as_ref().map_or_else(
+        || paths::picture_of(&scene.output.scene_path, SystemTime::now()),
+        PathBuf::from,
+    );
+    let job = SaveJob {
+        scene: Arc::clone(&scene),
+        paths: OutputPaths::new(png),
+        version: format!("{VERSION}, {} {} build.", std::env::consts::OS, std::env::consts::ARCH),
+        threads: options.threads,
+        seed: options.seed,
+    };
+    catch_interrupts(console);
+    match Session::start(Arc::clone(&scene), &options) {
+        Ok(session) => follow(session, &job, console),
+        Err(error) => {
+            console.say(&format!("error: {error}"));
+            FAILED
+        }
+    }
+}
+
+fn describe(scene: &Scene, console: &mut Console) {
+    let s = scene.stats();
+    console.say(&format!(
+        "{}: {} triangles, {} objects, {} lights, {} materials; {} × {} pixels",
+        scene.output.scene_path,
+        scaled(s.geometry.triangles as f64),
+        s.objects,
+        s.lights,
+        s.materials,
+        scene.film.size.width(),
+        scene.film.size.height(),
+    ));
+}
+
+fn halt(output: &OutputSettings) -> Halt {
+    Halt {
+        time: output.halt_time.and_then(|t| Duration::try_from_secs_f64(t).ok()),
+        // A fraction of a sample cannot be taken: at least as many as were asked for.
+        samples_per_pixel: output.halt_samples_per_pixel.map(|n| n.ceil() as u64),
+    }
+}
+
+/// The first Ctrl-C ends the render in good order, the second one leaves at once.
+fn catch_interrupts(console: &mut Console) {
+    let caught = ctrlc::set_handler(|| {
+        if INTERRUPTS.fetch_add(1, Ordering::Relaxed) > 0 {
+            std::process::exit(130);
+        }
+    });
+    if let Err(error) = caught {
+        console.say(&format!("warning: Ctrl-C will not save the picture: {error}"));
+    }
+}
+
+/// Follows a session to its end; the exit status.
+fn follow(mut session: Session, job: &SaveJob, console: &mut Console) -> u8 {
+    let period = Duration::try_from_secs_f64(job.scene.output.image_save_period).unwrap_or(Duration::MAX);
+    let mut saver = Saver { job, saving: None, last: Instant::now(), announced: false, failures: 0 };
+    let mut last_line: Option<Instant> = None;
+    let between = if console.is_terminal() { ON_TERMINAL } else { ELSEWHERE };
+    loop {
+        match session.wait(ON_TERMINAL) {
+            Event::Progress(progress) => {
+                if last_line.is_none_or(|t| t.elapsed() >= between) {
+                    console.progress(&progress_text(&progress));
+                    last_line = Some(Instant::now());
+                }
+                saver.tend(&session, &progress, period, console);
+                if INTERRUPTS.load(Ordering::Relaxed) > 0 {
+                    session.stop();
+                }
+            }
+            Event::Halted(reason, progress) => return finish(&session, &reason, &progress, saver, console),
+        }
+    }
+}
+
+fn finish(session: &Session, reason: &HaltReason, progress: &Progress, mut saver: Saver, console: &mut Console) -> u8 {
+    saver.wait_for_last(console);
+    console.say(&progress_text(progress));
+    if let HaltReason::Failed(message) = reason {
+        console.say(&format!("error: {message}"));
+    }
+    let film = session.snapshot();
+    if film.refused > 0 {
+        console.say(&format!(
+            "warning: {} contributions were not finite and were left out: this is a bug, please report it",
+            film.refused
+        ));
+    }
+    match saver.job.save(&film, progress) {
+        Ok(files) => {
+            say_saved(&files, console);
+            if matches!(reason, HaltReason::Failed(_)) { FAILED } else { RENDERED }
+        }
+        Err(error) => {
+            console.say(&format!("error: {error}"));
+            FAILED
+        }
+    }
+}
+
+fn say_saved(files: &[PathBuf], console: &mut Console) {
+    for file in files {
+        console.say(&format!("Saved {}", file.display()));
+    }
+}
+
+/// Saves the picture now and then, one save at a time.
+struct Saver<'a> {
+    job: &'a SaveJob,
+    saving: Option<Saving>,
+    last: Instant,
+    announced: bool,
+    failures: usize,
+}
+
+impl Saver<'_> {
+    fn tend(&mut self, session: &Session, progress: &Progress, period: Duration, console: &mut Console) {
+        if self.saving.as_ref().is_some_and(Saving::is_finished) {
+            self.wait_for_last(console);
+        }
+        if self.saving.is_none() && self.last.elapsed() >= period {
+            self.last = Instant::now();
+            match self.job.spawn(session.snapshot(), *progress) {
+                Ok(saving) => self.saving = Some(saving),
+                Err(error) => self.complain(&error, console),
+            }
+        }
+    }
+
+    fn wait_for_last(&mut self, console: &mut Console) {
+        match self.saving.take().map(Saving::finish) {
+            Some(Ok(files)) if !self.announced => {
+                self.announced = true;
+                say_saved(&files, console);
+            }
+            Some(Err(error)) => self.complain(&error, console),
+            Some(Ok(_)) | None => {}
+        }
+    }
+
+    /// A save that fails does not end the render: the disk may have room again later. It is said the
+    /// first time and then ever more rarely.
+    fn complain(&mut self, error: &SaveError, console: &mut Console) {
+        self.failures += 1;
+        if self.failures.is_power_of_two() {
+            console.say(&format!("warning: {error}; rendering goes on, and saving will be tried again"));
+        }
+    }
+}

@@ -1,0 +1,212 @@
+//! The disk: finding the files that scenes name, keeping built trees, and writing files so that a
+//! crash at any moment leaves the old one or the new one, never half of one.
+
+use indigo_decl::{ResolveError, Resolved, Resolver};
+use indigo_geom::TreeStore;
+use std::fs::File;
+use std::io::{Read, Write};
+use std::path::{Path, PathBuf};
+
+/// Finds files beside the file that names them, then in resource directories.
+///
+/// `\` and `/` are alike. An absolute path that does not exist (scenes travel between machines) is
+/// looked for by its last part beside the scene. Where no file has exactly the name, one that differs
+/// in case alone does.
+#[derive(Clone, Debug)]
+pub struct DiskResolver {
+    resource_directories: Vec<PathBuf>,
+    limit: u64,
+}
+
+impl DiskResolver {
+    /// The largest file that is read, unless told otherwise.
+    pub const DEFAULT_LIMIT: u64 = 4 << 30;
+
+    /// A resolver that also looks into these directories.
+    pub fn new(resource_directories: Vec<PathBuf>) -> Self {
+        Self { resource_directories, limit: Self::DEFAULT_LIMIT }
+    }
+
+    fn candidates(&self, path: &str, from: &str) -> Vec<PathBuf> {
+        let path = path.replace('\\', "/");
+        if from.is_empty() {
+            return vec![PathBuf::from(path)];
+        }
+        let beside = Path::new(from).parent().unwrap_or(Path::new("")).to_path_buf();
+        let has_drive = path.as_bytes().get(1) == Some(&b':');
+        if has_drive || path.starts_with('/') {
+            let name = path.rsplit('/').next().unwrap_or_default().to_owned();
+            return vec![PathBuf::from(path), beside.join(name)];
+        }
+        std::iter::once(&beside).chain(&self.resource_directories).map(|d| d.join(&path)).collect()
+    }
+
+    fn read_file(&self, path: &Path) -> Result<Resolved, ResolveError> {
+        let shown = path.to_string_lossy().into_owned();
+        let unreadable = |reason: String| ResolveError::Unreadable { path: shown.clone(), reason };
+        let file = File::open(path).map_err(|e| unreadable(e.to_string()))?;
+        let meta = file.metadata().map_err(|e| unreadable(e.to_string()))?;
+        if !meta.is_file() {
+            return Err(unreadable("not a file".to_owned()));
+        }
+        if meta.len() > self.limit {
+            return Err(ResolveError::TooLarge { size: meta.len(), limit: self.limit });
+        }
+        let mut bytes = Vec::with_capacity(meta.len() as usize);
+        // A file that grows while it is read must not go beyond the limit either.
+        file.take(self.limit).read_to_end(&mut bytes).map_err(|e| unreadable(e.to_string()))?;
+        Ok(Resolved { path: shown, bytes: bytes.into() })
+    }
+}
+
+impl Resolver for DiskResolver {
+    fn read(&self, path: &str, from: &str) -> Result<Resolved, ResolveError> {
+        let candidates = self.candidates(path, from);
+        let found = candidates.iter().find(|c| c.exists()).cloned();
+        match found.or_else(|| candidates.iter().find_map(|c| ignoring_case(c))) {
+            Some(path) => self.read_file(&path),
+            None => {
+                Err(ResolveError::NotFound { looked: candidates.iter().map(|c| c.display().to_string()).collect() })
+            }
+        }
+    }
+}
+
+/// The file whose path differs from the wanted one in case alone.
+fn ignoring_case(wanted: &Path) -> Option<PathBuf> {
+    let mut found = PathBuf::new();
+    for part in wanted.components() {
+        let exact = found.join(part);
+        if exact.exists() || found.as_os_str().is_empty() && !matches!(part, std::path::Component::Normal(_)) {
+            found = exact;
+            continue;
+        }
+        let name = part.as_os_str().to_string_lossy().to_lowercase();
+        let directory = if found.as_os_str().is_empty() { Path::new(".") } else { &found };
+        let entry = std::fs::read_dir(directory)
+            .ok()?
+            .filter_map(Result::ok)
+            .find(|e| e.file_name().to_string_lossy().to_lowercase() == name)?;
+        found.push(entry.file_name());
+    }
+    found.is_file().then_some(found)
+}
+
+/// Writes a file under a temporary name, syncs it and renames it.
+///
+/// # Errors
+/// What the system says; the old file is untouched then.
+pub fn write_atomically(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    let directory = match path.parent() {
+        Some(d) if !d.as_os_str().is_empty() => d.to_path_buf(),
+        _ => PathBuf::from("."),
+    };
+    std::fs::create_dir_all(&directory)?;
+    let mut name = path.file_name().unwrap_or_default().to_os_string();
+    // The process number keeps two programs that write the same picture apart.
+    name.push(format!(".{}.tmp", std::process::id()));
+    let temporary = directory.join(name);
+    let written = write_synced(&temporary, bytes).and_then(|()| std::fs::rename(&temporary, path));
+    if written.is_err() {
+        // Best effort: the error that matters is the one being returned.
+        drop(std::fs::remove_file(&temporary));
+        return written;
+    }
+    // The rename itself must reach the disk; not every file system can sync a directory.
+    if let Ok(d) = File::open(&directory) {
+        drop(d.sync_all());
+    }
+    Ok(())
+}
+
+fn write_synced(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    let mut file = File::create(path)?;
+    file.write_all(bytes)?;
+    file.sync_all()
+}
+
+/// Keeps built trees as files of a directory.
+#[derive(Clone, Debug)]
+pub struct DiskTreeStore {
+    directory: PathBuf,
+}
+
+impl DiskTreeStore {
+    /// A store in a directory, made when first needed.
+    pub fn new(directory: PathBuf) -> Self {
+        Self { directory }
+    }
+
+    fn path(&self, key: &[u8; 32]) -> PathBuf {
+        let name: String = key.iter().map(|b| format!("{b:02x}")).collect();
+        self.directory.join(format!("{name}.tree"))
+    }
+}
+
+impl TreeStore for DiskTreeStore {
+    fn load(&self, key: &[u8; 32]) -> Option<Vec<u8>> {
+        std::fs::read(self.path(key)).ok()
+    }
+
+    fn store(&self, key: &[u8; 32], bytes: &[u8]) {
+        // A cache that cannot be written costs time, nothing else.
+        drop(write_atomically(&self.path(key), bytes));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scratch(name: &str) -> PathBuf {
+        let directory = std::env::temp_dir().join(format!("indigo-disk-{}-{name}", std::process::id()));
+        std::fs::create_dir_all(&directory).unwrap();
+        directory
+    }
+
+    #[test]
+    fn files_are_found_as_exporters_write_them() {
+        let root = scratch("find");
+        std::fs::create_dir_all(root.join("Maps")).unwrap();
+        std::fs::create_dir_all(root.join("resources/nkdata")).unwrap();
+        std::fs::write(root.join("Maps/Wood.JPG"), b"wood").unwrap();
+        std::fs::write(root.join("beside.obj"), b"mesh").unwrap();
+        std::fs::write(root.join("resources/nkdata/au.nk"), b"gold").unwrap();
+        let resolver = DiskResolver::new(vec![root.join("resources")]);
+        let from = root.join("scene.igs").display().to_string();
+        let text = |path: &str| resolver.read(path, &from).map(|r| r.bytes.to_vec());
+        assert_eq!(text("Maps\\Wood.JPG").unwrap(), b"wood");
+        assert_eq!(text("maps/wood.jpg").unwrap(), b"wood");
+        assert_eq!(text("N:/work\\old/beside.obj").unwrap(), b"mesh");
+        assert_eq!(text("/nowhere/Beside.OBJ").unwrap(), b"mesh");
+        assert_eq!(text("nkdata/Au.nk").unwrap(), b"gold");
+        assert!(matches!(text("missing.png"), Err(ResolveError::NotFound { looked }) if looked.len() == 2));
+        assert!(matches!(text("Maps"), Err(ResolveError::Unreadable { .. })));
+        std::fs::remove_dir_all(root).unwrap();
+    }
+
+    #[test]
+    fn a_file_that_is_too_large_is_not_read() {
+        let root = scratch("large");
+        std::fs::write(root.join("a.bin"), [0; 100]).unwrap();
+        let resolver = DiskResolver { limit: 99, ..DiskResolver::new(vec![]) };
+        let path = root.join("a.bin").display().to_string();
+        assert_eq!(resolver.read(&path, "").unwrap_err(), ResolveError::TooLarge { size: 100, limit: 99 });
+        std::fs::remove_dir_all(root).unwrap();
+    }
+
+    #[test]
+    fn writing_replaces_as_a_whole_and_leaves_nothing_behind() {
+        let root = scratch("write");
+        let path = root.join("new/dir/picture.png");
+        write_atomically(&path, b"one").unwrap();
+        write_atomically(&path, b"two").unwrap();
+        assert_eq!(std::fs::read(&path).unwrap(), b"two");
+        assert_eq!(std::fs::read_dir(path.parent().unwrap()).unwrap().count(), 1);
+        // A directory in the way: the error is told, and no temporary file stays.
+        let blocked = root.join("new/dir");
+        assert!(write_atomically(&blocked, b"x").is_err());
+        assert_eq!(std::fs::read_dir(root.join("new")).unwrap().count(), 1);
+        std::fs::remove_dir_all(root).unwrap();
+    }
+}

@@ -1,0 +1,40 @@
+//! What a session is told to do.
+
+use std::time::Duration;
+
+/// When to stop by itself. Without either, a session runs for ever.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Halt {
+    /// After this time of rendering.
+    pub time: Option<Duration>,
+    /// At this number of samples per output pixel, exactly.
+    pub samples_per_pixel: Option<u64>,
+}
+
+/// Options of a session.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Options {
+    /// Number of worker threads; at least one is started.
+    pub threads: usize,
+    /// Names the whole random sequence.
+    pub seed: u64,
+    /// When to stop.
+    pub halt: Halt,
+    /// How often workers hand over what they have gathered.
+    pub epoch: Duration,
+    /// Whether sums are taken in the order of the work units, so that the film has the same bits for
+    /// any number of threads. Costs memory and time.
+    pub deterministic: bool,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            threads: 1,
+            seed: 0,
+            halt: Halt::default(),
+            epoch: Duration::from_secs(1),
+            deterministic: false,
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! `diffuse`: a Lambertian surface.
+
+use super::fields::{ALBEDO_SPECTRUM, ALBEDO_TEXTURE, BUMP_MAP, COLOUR_DEPRECATED, LATER};
+use super::{MaterialContext, MaterialResources};
+use crate::reflectance::Reflectance;
+use crate::scatter::{LocalSample, Scatter};
+use indigo_decl::{Block, Field, Group, Kind, Node, Presence};
+use indigo_math::warp::{INV_PI, cosine_hemisphere, cosine_hemisphere_pdf};
+use indigo_math::{Real, Vec2, Vec3};
+use indigo_spectrum::{LanePdf, SampledSpectrum, Spectrum};
+
+/// The declaration of `diffuse`.
+pub static BLOCK: Block = Block::new(
+    "diffuse",
+    "A Lambertian surface: light leaves it in all directions with the same radiance.",
+    &[
+        ALBEDO_SPECTRUM,
+        Field::new(
+            "colour",
+            Kind::Vec3,
+            Presence::Optional,
+            "The albedo as red, green and blue as picked on a screen: each is raised to the power 2.2 and \
+             then clamped to [0, 0.9]. Has no effect beside `albedo_spectrum`.",
+        )
+        .deprecated(COLOUR_DEPRECATED),
+        ALBEDO_TEXTURE,
+        BUMP_MAP,
+    ],
+)
+.with_needs(&[Group::any(&["albedo_spectrum", "colour", "albedo_texture"])])
+.with_later(LATER)
+.with_example(
+    "<diffuse>
+    <albedo_spectrum>
+        <rgb><rgb>0.8 0.4 0.2</rgb><gamma>2.2</gamma></rgb>
+    </albedo_spectrum>
+</diffuse>",
+);
+
+/// A Lambertian surface.
+#[derive(Clone, Debug)]
+pub struct Diffuse {
+    albedo: Reflectance,
+}
+
+impl Diffuse {
+    /// A surface that scatters nothing.
+    pub fn black() -> Self {
+        Self { albedo: Reflectance::Spectrum(Spectrum::BLACK) }
+    }
+
+    /// From its element. `bump_map` is left unread.
+    pub fn build(node: &Node, resources: &mut dyn MaterialResources) -> Self {
+        Self { albedo: Reflectance::build(node, ["albedo_texture", "albedo_spectrum", "colour"], resources) }
+    }
+
+    /// The model at a point.
+    #[inline]
+    pub fn leaf(&self, context: &MaterialContext, uv: impl Fn(u32) -> Vec2) -> DiffuseLeaf {
+        DiffuseLeaf { f: self.albedo.eval(context, uv) * INV_PI }
+    }
+}
+
+/// Constant BSDF on the side of `wo`.
+///
+/// A shading normal may lean so far that `wo` lies below its horizon though it is in front of the
+/// surface: the model does not look at `wo`, so such places are not dark.
+#[derive(Clone, Copy, Debug)]
+pub struct DiffuseLeaf {
+    /// Albedo / π.
+    f: SampledSpectrum,
+}
+
+impl Scatter for DiffuseLeaf {
+    #[inline]
+    fn f(&self, _wo: Vec3, wi: Vec3) -> SampledSpectrum {
+        if wi.z > 0.0 { self.f } else { SampledSpectrum::ZERO }
+    }
+
+    #[inline]
+    fn pdf(&self, _wo: Vec3, wi: Vec3) -> LanePdf {
+        LanePdf::splat(cosine_hemisphere_pdf(wi.z))
+    }
+
+    #[inline]
+    fn sample(&self, _wo: Vec3, u: [Real; 3]) -> Option<LocalSample> {
+        let wi = cosine_hemisphere(Vec2::new(u[0], u[1]));
+        let pdf = cosine_hemisphere_pdf(wi.z);
+        (pdf > 0.0).then(|| LocalSample { wi, f: self.f, pdf: LanePdf::splat(pdf) })
+    }
+}

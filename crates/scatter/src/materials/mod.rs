@@ -1,0 +1,167 @@
+//! Materials: one file each, and one line each in the list below.
+
+pub mod blend;
+pub mod diffuse;
+pub mod diffuse_transmitter;
+pub mod fields;
+pub mod glossy_transparent;
+pub mod null_material;
+pub mod oren_nayar;
+pub mod phong;
+pub mod specular;
+
+use crate::scatter::{LocalSample, Scatter};
+use indigo_decl::{Alternatives, Block, Field, Kind, Later, Node, Presence};
+use indigo_diag::Sink;
+use indigo_math::{Real, Vec2, Vec3};
+use indigo_spectrum::{LanePdf, SampledSpectrum, SampledWavelengths};
+use indigo_texture::{Texture, TextureId};
+
+/// What the evaluation of a material may look at.
+#[derive(Clone, Copy, Debug)]
+pub struct MaterialContext<'a> {
+    /// All textures of the scene.
+    pub textures: &'a [Texture],
+    /// The wavelengths of the path.
+    pub lambda: &'a SampledWavelengths,
+}
+
+/// What the building of a material needs of the scene.
+pub trait MaterialResources {
+    /// The image map that a texture element asks for; whatever is wrong with it has been reported.
+    fn texture(&mut self, node: &Node) -> TextureId;
+    /// Where to report what is wrong.
+    fn sink(&mut self) -> &mut Sink;
+}
+
+/// Makes the enums of materials and of their leaves, and everything that goes through all of them.
+///
+/// A line `name => Material / Leaf` registers a material of the file `name.rs`: `Material` has
+/// `build(&Node, &mut dyn MaterialResources)` and `leaf(&MaterialContext, uv)`, `Leaf` is a
+/// [`Scatter`]. `declared` lists the elements that are read but that nothing renders yet.
+macro_rules! registry {
+    ($($name:ident => $material:ident / $leaf:ident,)* ; declared $($only:ident,)*) => {
+        /// The kinds of material.
+        pub static KINDS: &[&Block] = &[$(&$name::BLOCK,)* $(&$only::BLOCK,)* &null_material::BLOCK];
+
+        /// A material as the scene holds it.
+        #[derive(Clone, Debug)]
+        pub enum Material {
+            /// Does nothing to light.
+            Null,
+            $(#[doc = concat!("See [`", stringify!($name), "`].")] $material($name::$material),)*
+        }
+
+        /// A scattering model as a path holds it: all numbers baked for a point and its wavelengths.
+        #[derive(Clone, Copy, Debug)]
+        pub enum Leaf {
+            $(#[doc = concat!("See [`", stringify!($name), "`].")] $material($name::$leaf),)*
+        }
+
+        impl Material {
+            /// From the element of a kind of material; `None` where nothing renders that kind yet.
+            pub fn build(node: &Node, resources: &mut dyn MaterialResources) -> Option<Self> {
+                if std::ptr::eq(node.block, &raw const null_material::BLOCK) {
+                    return Some(Self::Null);
+                }
+                $(if std::ptr::eq(node.block, &raw const $name::BLOCK) {
+                    return Some(Self::$material($name::$material::build(node, resources)));
+                })*
+                None
+            }
+
+            /// The scattering model at a point, whose texture coordinates `uv` gives for each set;
+            /// `None` where the material does nothing to light.
+            #[inline]
+            pub fn leaf(&self, context: &MaterialContext, uv: impl Fn(u32) -> Vec2) -> Option<Leaf> {
+                match self {
+                    Self::Null => None,
+                    $(Self::$material(m) => Some(Leaf::$material(m.leaf(context, uv))),)*
+                }
+            }
+        }
+
+        impl Scatter for Leaf {
+            #[inline]
+            fn f(&self, wo: Vec3, wi: Vec3) -> SampledSpectrum {
+                match self {
+                    $(Self::$material(m) => m.f(wo, wi),)*
+                }
+            }
+
+            #[inline]
+            fn pdf(&self, wo: Vec3, wi: Vec3) -> LanePdf {
+                match self {
+                    $(Self::$material(m) => m.pdf(wo, wi),)*
+                }
+            }
+
+            #[inline]
+            fn sample(&self, wo: Vec3, u: [Real; 3]) -> Option<LocalSample> {
+                match self {
+                    $(Self::$material(m) => m.sample(wo, u),)*
+                }
+            }
+        }
+    };
+}
+
+registry! {
+    diffuse => Diffuse / DiffuseLeaf,
+    ; declared
+    oren_nayar,
+    diffuse_transmitter,
+    specular,
+    phong,
+    glossy_transparent,
+    blend,
+}
+
+impl Material {
+    /// A surface that scatters nothing.
+    pub fn black() -> Self {
+        Self::Diffuse(diffuse::Diffuse::black())
+    }
+
+    /// Whether light passes as if the surface were not there.
+    #[inline]
+    pub fn is_invisible(&self) -> bool {
+        matches!(self, Self::Null)
+    }
+}
+
+/// The declaration of `material`.
+pub static MATERIAL: Block = Block::new(
+    "material",
+    "Defines a material: a name and one kind. Where it stands in the scene does not matter.",
+    &[Field::new("name", Kind::Name, Presence::Required, "Name by which meshes and blends refer to it.")],
+)
+.with_alternatives(Alternatives {
+    later: &[
+        Later::new("coating", "3.0"),
+        Later::new("double_sided_thin", "3.0"),
+        Later::new("fast_sss", "4.0"),
+        Later::new("fabric", "4.0"),
+        Later::new("sum", "4.0"),
+        Later::new("external", "3.0"),
+    ],
+    ..Alternatives::new("a kind of material", KINDS)
+})
+.with_later(&[
+    Later::new("uid", "3.0"),
+    Later::new("metadata", "3.0"),
+    Later::new("backface_emit", "4.0"),
+    Later::new("emission_sampling_factor", "4.0"),
+    Later::new("invisible_to_camera", "4.0"),
+    Later::new("shadow_catcher", "4.0"),
+])
+.with_example(
+    "<material>
+    <name>white</name>
+    <diffuse>
+        <albedo_spectrum>
+            <uniform><value>0.8</value></uniform>
+        </albedo_spectrum>
+    </diffuse>
+</material>",
+);

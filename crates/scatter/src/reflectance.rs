@@ -1,0 +1,57 @@
+//! A reflectance: a spectrum, or an image map.
+
+use crate::materials::{MaterialContext, MaterialResources};
+use indigo_decl::Node;
+use indigo_math::Vec2;
+use indigo_spectrum::rgb::RgbTable;
+use indigo_spectrum::{SampledSpectrum, Spectrum, read};
+use indigo_texture::TextureId;
+
+/// The gamma that colours picked on a screen are freed of, and the largest albedo that they may have then.
+const COLOUR_GAMMA: f64 = 2.2;
+const COLOUR_LIMIT: f64 = 0.9;
+
+/// The fraction of light that is scattered, by wavelength.
+#[derive(Clone, Debug)]
+pub enum Reflectance {
+    /// The same all over the surface.
+    Spectrum(Spectrum),
+    /// From an image map: its linear RGB, clamped to [0, 1], upsampled.
+    Texture(TextureId),
+}
+
+impl Reflectance {
+    /// From the elements of a material: the texture first, then the spectrum, then the colour; black
+    /// where there is none of them. What is overridden is marked as used.
+    pub fn build(
+        node: &Node,
+        [texture, spectrum, colour]: [&str; 3],
+        resources: &mut dyn MaterialResources,
+    ) -> Self {
+        let map = node.node(texture).map(|t| resources.texture(t));
+        if let Some(id) = map {
+            node.disregard_field(spectrum);
+            node.disregard_field(colour);
+            return Self::Texture(id);
+        }
+        if let Some(s) = node.node(spectrum) {
+            node.disregard_field(colour);
+            return Self::Spectrum(read::reflectance(s, resources.sink()));
+        }
+        let rgb = node.opt_vec3(colour).map_or([0.0; 3], |v| v.value);
+        let linear = rgb.map(|v| v.max(0.0).powf(COLOUR_GAMMA).clamp(0.0, COLOUR_LIMIT));
+        Self::Spectrum(Spectrum::rgb_reflectance(linear))
+    }
+
+    /// The values at a point of the surface.
+    #[inline]
+    pub fn eval(&self, context: &MaterialContext, uv: impl Fn(u32) -> Vec2) -> SampledSpectrum {
+        match self {
+            Self::Spectrum(s) => s.eval(context.lambda),
+            Self::Texture(id) => {
+                let texture = &context.textures[*id as usize];
+                RgbTable::get().lookup(texture.rgb(uv(texture.uv_set))).eval(context.lambda)
+            }
+        }
+    }
+}

@@ -1,0 +1,5 @@
+//! Prints the reference of the scene format, for `docs/manual/scene-format.md`.
+
+fn main() {
+    print!("{}", indigo_scene::schema::reference());
+}

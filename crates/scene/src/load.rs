@@ -1,0 +1,94 @@
+//! Loading: read, bind, lower, and gather everything that is wrong.
+
+use crate::lower;
+use crate::schema::SCENE;
+use crate::schema::settings::RENDERER_SETTINGS;
+use crate::settings::{Origin, Settings};
+use crate::scene::Scene;
+use indigo_decl::{Element, Node, Resolver, bind};
+use indigo_diag::{Sink, SourceMap, Span, Spanned};
+use indigo_geom::TreeStore;
+use indigo_igs::{Limits, read_document, read_scene};
+
+/// What a front end adds to a scene.
+pub struct LoadOptions<'a> {
+    /// Where bytes come from.
+    pub resolver: &'a dyn Resolver,
+    /// Where built trees are kept.
+    pub trees: &'a dyn TreeStore,
+    /// Path of the settings file, if there is one.
+    pub inifile: Option<&'a str>,
+    /// Settings given on the command line, by name and text.
+    pub overrides: &'a [(&'a str, String)],
+    /// Limits on files.
+    pub limits: Limits,
+}
+
+/// A scene as far as it could be loaded.
+pub struct Loaded {
+    /// The scene, if nothing was wrong with it.
+    pub scene: Option<Scene>,
+    /// All settings with their origins.
+    pub settings: Option<Settings>,
+    /// All files that were read.
+    pub sources: SourceMap,
+    /// Everything that was found.
+    pub sink: Sink,
+}
+
+/// Loads a scene. Everything that is wrong is in the result's sink; a scene comes with no errors only.
+pub fn load(path: &str, options: &LoadOptions) -> Loaded {
+    let mut sources = SourceMap::default();
+    let mut sink = Sink::new();
+    let root = read_scene(path, options.resolver, &mut sources, &mut sink, &options.limits);
+    let Some(root) = root else { return Loaded { scene: None, settings: None, sources, sink } };
+    let nowhere = root.span;
+    let root = bind(root, &SCENE, &mut sink);
+    let mut layers = vec![];
+    if let Some(node) = command_line(options.overrides, &mut sources, &mut sink) {
+        layers.push((Origin::CommandLine, node));
+    }
+    let (scene_settings, root) = take_settings(root);
+    layers.extend(scene_settings.map(|node| (Origin::Scene, node)));
+    if let Some(node) = options.inifile.and_then(|ini| read_inifile(ini, options, &mut sources, &mut sink)) {
+        layers.push((Origin::IniFile, node));
+    }
+    let settings = Settings::new(layers, nowhere);
+    let scene = lower::lower(&root, &settings, path, options, &mut sources, &mut sink);
+    Loaded { scene: scene.filter(|_| !sink.has_errors()), settings: Some(settings), sources, sink }
+}
+
+/// The settings become a layer of their own, apart from the rest of the scene.
+fn take_settings(mut root: Node) -> (Option<Node>, Node) {
+    (root.take_node(RENDERER_SETTINGS.name), root)
+}
+
+/// The settings of the command line as an element whose places lie in a made-up file.
+fn command_line(overrides: &[(&str, String)], sources: &mut SourceMap, sink: &mut Sink) -> Option<Node> {
+    if overrides.is_empty() {
+        return None;
+    }
+    let mut text = String::new();
+    let mut ranges = vec![];
+    for (name, value) in overrides {
+        text.push_str(name);
+        text.push('=');
+        ranges.push((text.len(), text.len() + value.len()));
+        text.push_str(value);
+        text.push(' ');
+    }
+    let source = sources.add("command line", text.into_bytes().into(), None)?;
+    let mut element = Element::new(RENDERER_SETTINGS.name, Span::new(source, 0, 0));
+    for ((name, value), (start, end)) in overrides.iter().zip(ranges) {
+        let span = Span::new(source, start, end);
+        let mut child = Element::new(name, span);
+        child.text = Spanned::new(value.as_str().into(), span);
+        element.children.push(child);
+    }
+    Some(bind(element, &RENDERER_SETTINGS, sink))
+}
+
+fn read_inifile(path: &str, options: &LoadOptions, sources: &mut SourceMap, sink: &mut Sink) -> Option<Node> {
+    let root = read_document(path, options.resolver, sources, sink, &options.limits)?;
+    Some(bind(root, &RENDERER_SETTINGS, sink))
+}

@@ -1,0 +1,102 @@
+//! The camera.
+
+use crate::codes;
+use crate::scene::FilmSettings;
+use crate::settings::{Origin, Settings};
+use indigo_camera::{ThinLens, ThinLensParameters};
+use indigo_decl::Node;
+use indigo_diag::{Diagnostic, Sink};
+use indigo_geom::{Accel, Ray};
+use indigo_math::{Float, Vec3, Vec3d};
+
+/// Relative difference between the sensor's aspect ratio and the picture's that is worth a warning.
+const ASPECT_TOLERANCE: f64 = 0.01;
+
+/// A camera whose focus may still have to be found.
+pub(super) struct Unfocused {
+    lens: ThinLensParameters,
+    autofocus: bool,
+}
+
+/// Reads the camera; `None` after reporting that it has no direction.
+pub(super) fn parameters(
+    node: &Node,
+    settings: &Settings,
+    film: Option<&FilmSettings>,
+    sink: &mut Sink,
+) -> Option<Unfocused> {
+    let (sensor_width, aspect) = (node.real("sensor_width"), node.real("aspect_ratio"));
+    let autofocus = node.flag("autofocus");
+    let focus_distance = node.opt_real("focus_distance").map_or(f64::INFINITY, |v| v.value);
+    // The settings' switch and the camera's own both take vignetting out.
+    let vignetting = node.bool("vignetting") && settings.bool("vignetting");
+    let lens = ThinLensParameters {
+        position: Vec3d::ZERO,
+        forwards: node.vec3("forwards").into(),
+        up: node.vec3("up").into(),
+        aperture_radius: node.real("aperture_radius"),
+        focus_distance,
+        sensor_width,
+        sensor_height: sensor_width / aspect,
+        lens_sensor_dist: node.real("lens_sensor_dist"),
+        vignetting,
+    };
+    if let Some(film) = film {
+        warn_of_aspect(node, aspect, film, sink);
+    }
+    aperture(node, settings, sink);
+    if ThinLens::new(&lens).is_none() {
+        sink.push(
+            Diagnostic::error(codes::SINGULAR, node.span_of("up"), "<up> and <forwards> span no plane")
+                .expected("expected an <up> that does not point along <forwards>"),
+        );
+        return None;
+    }
+    Some(Unfocused { lens, autofocus })
+}
+
+fn warn_of_aspect(node: &Node, aspect: f64, film: &FilmSettings, sink: &mut Sink) {
+    let picture = f64::from(film.size.width()) / f64::from(film.size.height());
+    if (aspect / picture - 1.0).abs() > ASPECT_TOLERANCE {
+        sink.push(
+            Diagnostic::warning(
+                codes::ASPECT_RATIO,
+                node.span_of("aspect_ratio"),
+                format!("<aspect_ratio> is {aspect}, but the picture's is {picture:.4}: it will look stretched"),
+            )
+            .hint(format!("set it to {picture:.6}")),
+        );
+    }
+}
+
+/// The shape of the aperture and what hangs on its diffraction.
+fn aperture(node: &Node, settings: &Settings, sink: &mut Sink) {
+    settings.refuse_true("aperture_diffraction", Some("the picture has no diffraction glare"), sink);
+    settings.disregard("post_process_diffraction");
+    if !settings.bool("aperture_diffraction") || settings.origin("aperture_diffraction") == Origin::Default {
+        // An obstacle map has an effect on diffraction alone.
+        node.disregard_field("obstacle_map");
+    }
+    if let Some(shape) = node.node("aperture_shape").and_then(Node::alternative)
+        && shape.block.name == "circular"
+    {
+        shape.mark_used();
+    }
+}
+
+/// Sets the focus by what the camera sees in its direction, if it is to find its focus itself.
+pub(super) fn focus(mut camera: Unfocused, accel: &Accel) -> Unfocused {
+    if camera.autofocus {
+        let forwards = camera.lens.forwards.normalized();
+        let ray = Ray::new(Vec3::ZERO, forwards.cast());
+        camera.lens.focus_distance = accel.intersect(&ray).map_or(f64::INFINITY, |hit| hit.t.to_f64());
+    }
+    camera
+}
+
+impl Unfocused {
+    /// The lens.
+    pub(super) fn into_lens(self) -> Option<ThinLens> {
+        ThinLens::new(&self.lens)
+    }
+}

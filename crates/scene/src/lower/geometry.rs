@@ -1,0 +1,138 @@
+//! Placed objects: models, spheres and planes, with the materials of their slots.
+
+use super::Context;
+use super::materials::{MaterialTable, UvSets};
+use super::meshes::MeshTable;
+use super::placement;
+use crate::codes;
+use crate::settings::{Origin, Settings};
+use indigo_decl::Node;
+use indigo_diag::Diagnostic;
+use indigo_geom::Object;
+use indigo_math::Vec3d;
+
+/// All objects in render space.
+pub(super) struct Geometry {
+    /// The camera's position: the origin of render space.
+    origin: Vec3d,
+    objects: Vec<Object>,
+    first_slot: Vec<u32>,
+    slots: Vec<u32>,
+    /// For each object the light that it is.
+    lights: Vec<Option<u32>>,
+}
+
+impl Geometry {
+    pub(super) fn new(origin: Vec3d) -> Self {
+        Self { origin, objects: vec![], first_slot: vec![], slots: vec![], lights: vec![] }
+    }
+
+    /// Adds an object given in the world, and returns its number.
+    pub(super) fn add(&mut self, object: Object, slots: impl IntoIterator<Item = u32>, light: Option<u32>) -> u32 {
+        self.objects.push(self.to_render_space(object));
+        self.first_slot.push(self.slots.len() as u32);
+        self.slots.extend(slots);
+        self.lights.push(light);
+        (self.objects.len() - 1) as u32
+    }
+
+    fn to_render_space(&self, object: Object) -> Object {
+        match object {
+            Object::Mesh { mesh, transform } => {
+                Object::Mesh { mesh, transform: transform.then_translate(-self.origin) }
+            }
+            Object::Sphere { center, radius } => Object::Sphere { center: center - self.origin, radius },
+            Object::Plane { normal, dist } => Object::Plane { normal, dist: dist - normal.dot(self.origin) },
+        }
+    }
+
+    pub(super) fn add_objects(
+        &mut self,
+        root: &Node,
+        settings: &Settings,
+        meshes: &mut MeshTable,
+        materials: &mut MaterialTable,
+        context: &mut Context,
+    ) {
+        for model in root.nodes("model") {
+            self.add_instance(model, None, meshes, materials, context);
+        }
+        for sphere in root.nodes("sphere") {
+            let object = Object::Sphere { center: sphere.vec3("center").into(), radius: sphere.real("radius") };
+            self.add_shape(sphere, object, materials, context);
+        }
+        for plane in root.nodes("plane") {
+            if settings.bool("bidirectional") && settings.origin("bidirectional") != Origin::Default {
+                context.sink.push(
+                    Diagnostic::error(
+                        codes::PLANE_BIDIRECTIONAL,
+                        plane.span,
+                        "an infinite plane cannot be traced from both ends",
+                    )
+                    .hint("set <bidirectional> to false, or use a large mesh instead of the plane"),
+                );
+            }
+            self.add_plane(plane, materials, context);
+        }
+    }
+
+    fn add_plane(&mut self, plane: &Node, materials: &mut MaterialTable, context: &mut Context) {
+        let normal = Vec3d::from(plane.vec3("normal"));
+        if let Some(unit) = normal.try_normalized() {
+            // The manual asks for unit length; `dist` is along the unit normal in any case.
+            let object = Object::Plane { normal: unit, dist: plane.real("dist") };
+            self.add_shape(plane, object, materials, context);
+        } else {
+            context.sink.push(
+                Diagnostic::error(codes::SINGULAR, plane.span_of("normal"), "the normal of the plane has no direction")
+                    .expected("expected a vector of length 1"),
+            );
+        }
+    }
+
+    fn add_shape(&mut self, node: &Node, object: Object, materials: &mut MaterialTable, context: &mut Context) {
+        let name = node.text("material_name");
+        let material = materials.get(&name.value, name.span, UvSets::Natural, context);
+        self.add(object, [material], None);
+    }
+
+    /// Adds an instance of a mesh; the number of the object and of its mesh, or `None` after
+    /// reporting what is wrong.
+    pub(super) fn add_instance(
+        &mut self,
+        node: &Node,
+        light: Option<u32>,
+        meshes: &mut MeshTable,
+        materials: &mut MaterialTable,
+        context: &mut Context,
+    ) -> Option<(u32, u32)> {
+        let transform = placement::transform(node, context.sink);
+        let name = node.text("mesh_name");
+        let mesh = meshes.get(&name.value, name.span, context)?;
+        let id = mesh.id;
+        let uv = UvSets::Named(&mesh.uv_names);
+        let slots: Vec<u32> =
+            mesh.slots.iter().map(|(name, span)| materials.get(name, *span, uv, context)).collect();
+        Some((self.add(Object::Mesh { mesh: id, transform }, slots, light), id))
+    }
+
+    /// The objects, for building.
+    pub(super) fn objects(&self) -> Vec<Object> {
+        self.objects.clone()
+    }
+
+    /// An object.
+    pub(super) fn object(&self, i: u32) -> &Object {
+        &self.objects[i as usize]
+    }
+
+    /// For each object the light that it is.
+    pub(super) fn lights(&self) -> impl Iterator<Item = Option<u32>> + '_ {
+        self.lights.iter().copied()
+    }
+
+    /// First slot of each object, and the material of each slot.
+    pub(super) fn into_slots(self) -> (Vec<u32>, Vec<u32>) {
+        (self.first_slot, self.slots)
+    }
+}

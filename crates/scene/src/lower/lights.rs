@@ -1,0 +1,113 @@
+//! Lights.
+
+use super::Context;
+use super::geometry::Geometry;
+use super::materials::MaterialTable;
+use super::meshes::MeshTable;
+use crate::codes;
+use indigo_decl::Node;
+use indigo_diag::{Diagnostic, Sink};
+use indigo_geom::{Accel, MeshBuffers, Object, TriangleMesh};
+use indigo_light::{AreaLight, Light, LightTable};
+use indigo_math::{Transform, Vec3d};
+use indigo_spectrum::{Spectrum, photometry, read};
+
+/// Lights found so far.
+#[derive(Default)]
+pub(super) struct Lights {
+    lights: Vec<Light>,
+}
+
+impl Lights {
+    pub(super) fn add_background(&mut self, root: &Node, sink: &mut Sink) {
+        let Some(spectrum) = root.node("background").and_then(|b| b.node("spectrum")) else { return };
+        self.lights.push(Light::Background(read::emission(spectrum, sink)));
+    }
+
+    pub(super) fn add_mesh_lights(
+        &mut self,
+        root: &Node,
+        geometry: &mut Geometry,
+        meshes: &mut MeshTable,
+        materials: &mut MaterialTable,
+        context: &mut Context,
+    ) {
+        for node in root.nodes("meshlight") {
+            let light = self.lights.len() as u32;
+            let placed = geometry.add_instance(node, Some(light), meshes, materials, context);
+            let Some((object, mesh)) = placed else {
+                node.disregard();
+                continue;
+            };
+            let corners = world_corners(geometry.object(object), meshes.triangles(mesh));
+            self.add_area(node, &corners, context.sink);
+        }
+    }
+
+    pub(super) fn add_rectangles(
+        &mut self,
+        root: &Node,
+        geometry: &mut Geometry,
+        meshes: &mut MeshTable,
+        materials: &mut MaterialTable,
+        sink: &mut Sink,
+    ) {
+        for node in root.nodes("rectanglelight") {
+            let light = self.lights.len() as u32;
+            let Some(mesh) = rectangle(node, sink) else { continue };
+            let mesh = meshes.add(mesh);
+            let transform = Transform::translation(node.vec3("pos").into());
+            let object = geometry.add(Object::Mesh { mesh, transform }, [materials.black()], Some(light));
+            let corners = world_corners(geometry.object(object), meshes.triangles(mesh));
+            self.add_area(node, &corners, sink);
+        }
+    }
+
+    fn add_area(&mut self, node: &Node, corners: &[[Vec3d; 3]], sink: &mut Sink) {
+        let spectrum = node.node("spectrum").map_or(Spectrum::BLACK, |s| read::emission(s, sink));
+        let mut light = AreaLight::new(spectrum, corners);
+        if let Some(scale) = node.node("efficacy_scale") {
+            let (power, efficacy) = (scale.real("power_drawn"), scale.real("overall_luminous_efficacy"));
+            match photometry::with_efficacy(&light.radiance, power, efficacy, light.area()) {
+                Some(scaled) => light.radiance = scaled,
+                None => sink.push(
+                    Diagnostic::error(codes::NO_FLUX, scale.span, "a lamp without luminance or area cannot be scaled to a power")
+                        .expected("expected a spectrum with visible light on a mesh with area"),
+                ),
+            }
+        }
+        self.lights.push(Light::Area(light));
+    }
+
+    /// The table of all lights.
+    pub(super) fn into_table(self, geometry: &Geometry, accel: &Accel) -> LightTable {
+        let size = accel.bounds().size().cast::<f64>();
+        let radius = if size.is_finite() { 0.5 * size.length() } else { 1.0 };
+        LightTable::new(self.lights, geometry.lights(), radius)
+    }
+}
+
+/// The triangles of a mesh object in render space. Under a reflection the order of the corners is
+/// turned, so that the front stays the front.
+fn world_corners(object: &Object, mesh: &TriangleMesh) -> Vec<[Vec3d; 3]> {
+    let Object::Mesh { transform, .. } = object else { return vec![] };
+    let place = |i: u32| transform.point(Vec3d::from(mesh.positions()[i as usize].map(f64::from)));
+    let flip = transform.is_reflection();
+    mesh.triangles()
+        .iter()
+        .map(|&[a, b, c]| if flip { [a, c, b] } else { [a, b, c] }.map(place))
+        .collect()
+}
+
+/// A horizontal rectangle round the origin whose front looks down.
+fn rectangle(node: &Node, sink: &mut Sink) -> Option<TriangleMesh> {
+    let (x, y) = ((node.real("width") / 2.0) as f32, (node.real("height") / 2.0) as f32);
+    let buffers = MeshBuffers {
+        positions: vec![[-x, -y, 0.0], [-x, y, 0.0], [x, y, 0.0], [x, -y, 0.0]],
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        ..MeshBuffers::default()
+    };
+    TriangleMesh::new(buffers)
+        .map_err(|e| sink.push(Diagnostic::error(codes::GEOMETRY, node.span, e.to_string())))
+        .ok()
+}

@@ -1,0 +1,158 @@
+//! Lowering: from checked elements to a scene that can be traced.
+//!
+//! Each part of the scene has a file. What none of them reads is reported at the end: it would have
+//! no effect.
+
+mod camera;
+mod geometry;
+mod lights;
+mod materials;
+mod meshes;
+mod names;
+mod picture;
+mod placement;
+
+use crate::codes;
+use crate::load::LoadOptions;
+use crate::scene::{Scene, TransportSettings};
+use crate::settings::Settings;
+use geometry::Geometry;
+use indigo_decl::{Node, report_unread};
+use indigo_diag::{Diagnostic, Severity, Sink, SourceMap, Span};
+use indigo_geom::{Accel, BuildOptions};
+use indigo_math::Vec3d;
+use materials::MaterialTable;
+use meshes::MeshTable;
+use std::sync::Arc;
+
+/// What all parts of lowering share.
+struct Context<'a> {
+    options: &'a LoadOptions<'a>,
+    sources: &'a mut SourceMap,
+    sink: &'a mut Sink,
+}
+
+impl Context<'_> {
+    /// A place in words.
+    fn place(&self, span: Span) -> String {
+        let p = self.sources.position(span);
+        format!("{}:{}:{}", self.sources.name(span.source), p.line, p.column)
+    }
+
+    /// The bytes of a file named in the scene; `None` after reporting why not.
+    fn read(&mut self, path: &str, span: Span) -> Option<indigo_decl::Resolved> {
+        match self.options.resolver.read(path, self.sources.name(span.source)) {
+            Ok(found) => Some(found),
+            Err(error) => {
+                self.sink.push(Diagnostic::error(codes::MISSING_FILE, span, format!("cannot read {path}: {error}")));
+                None
+            }
+        }
+    }
+}
+
+/// Lowers a scene. `None` where an error, now in the sink, leaves nothing to trace.
+pub(crate) fn lower(
+    root: &Node,
+    settings: &Settings,
+    path: &str,
+    options: &LoadOptions,
+    sources: &mut SourceMap,
+    sink: &mut Sink,
+) -> Option<Scene> {
+    let mut context = Context { options, sources, sink };
+    let scene = build(root, settings, path, &mut context);
+    root.mark_used();
+    report_unread(root, Severity::Error, context.sink);
+    settings.report_unread(context.sink);
+    scene
+}
+
+fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) -> Option<Scene> {
+    let transport = transport(settings, context.sink);
+    let film = picture::film(settings, context.sink);
+    let output = picture::output(settings, context.sink, path);
+    let camera_node = find_camera(root, context.sink);
+    let origin = camera_node.map_or(Vec3d::ZERO, |c| c.vec3("pos").into());
+    let camera = camera_node.and_then(|c| camera::parameters(c, settings, film.as_ref(), context.sink));
+
+    let mut meshes = MeshTable::new(root, context.sink);
+    let mut materials = MaterialTable::new(root, context.sink);
+    let mut geometry = Geometry::new(origin);
+    geometry.add_objects(root, settings, &mut meshes, &mut materials, context);
+    let mut lights = lights::Lights::default();
+    lights.add_background(root, context.sink);
+    lights.add_mesh_lights(root, &mut geometry, &mut meshes, &mut materials, context);
+    lights.add_rectangles(root, &mut geometry, &mut meshes, &mut materials, context.sink);
+    meshes.disregard_unused();
+    materials.disregard_unused();
+    // Media matter only to materials, each of which is an error as long as none of them is rendered.
+    root.nodes("medium").for_each(Node::disregard);
+
+    let picture = picture::picture(root, camera_node, settings, context.sink);
+    let threshold = usize::try_from(settings.int("bih_tri_threshold").value).unwrap_or(usize::MAX);
+    let caching = settings.bool("cache_trees");
+    if context.sink.has_errors() {
+        return None;
+    }
+    let build_options = BuildOptions { fast_threshold: threshold, ..BuildOptions::default() };
+    let trees: &dyn indigo_geom::TreeStore = if caching { context.options.trees } else { &indigo_geom::NoStore };
+    let accel = match Accel::build(meshes.into_triangles(), geometry.objects(), &build_options, trees) {
+        Ok(accel) => accel,
+        Err(error) => {
+            context.sink.push(Diagnostic::error(codes::GEOMETRY, root.span, error.to_string()));
+            return None;
+        }
+    };
+    let camera = camera::focus(camera?, &accel).into_lens()?;
+    let lights = lights.into_table(&geometry, &accel);
+    if lights.lights().is_empty() {
+        context.sink.push(
+            Diagnostic::warning(codes::NO_LIGHT, root.span, "the scene has no light: the picture will be black")
+                .hint("add a <background>, a <meshlight> or a <rectanglelight>"),
+        );
+    }
+    let (first_slot, slots) = geometry.into_slots();
+    let (materials, textures) = materials.into_arenas();
+    Some(Scene {
+        has_invisible_surfaces: slots.iter().any(|&m| materials[m as usize].is_invisible()),
+        accel,
+        lights,
+        camera,
+        textures,
+        materials,
+        first_slot,
+        slots,
+        nudge_m: settings.real("ray_origin_nudge_distance") as indigo_math::Real,
+        transport,
+        film: film?,
+        picture: picture?,
+        output,
+    })
+}
+
+fn find_camera<'a>(root: &'a Node, sink: &mut Sink) -> Option<&'a Node> {
+    let camera = root.node("camera");
+    if camera.is_none() {
+        sink.push(
+            Diagnostic::error(codes::NO_CAMERA, root.span, "the scene has no camera").expected("expected a <camera> inside"),
+        );
+    }
+    camera
+}
+
+fn transport(settings: &Settings, sink: &mut Sink) -> TransportSettings {
+    for field in ["bidirectional", "metropolis"] {
+        settings.refuse_true(field, Some("light is found by path tracing, which converges to the same picture"), sink);
+    }
+    settings.refuse_true("hybrid", None, sink);
+    for field in ["large_mutation_prob", "max_change", "max_num_consec_rejections"] {
+        settings.disregard(field);
+    }
+    TransportSettings { max_depth: u32::try_from(settings.int("max_depth").value).unwrap_or(u32::MAX) }
+}
+
+/// An empty file, for resources that could not be read.
+fn nothing() -> Arc<[u8]> {
+    Arc::from([])
+}

@@ -1,0 +1,128 @@
+//! Film, picture and output.
+
+use crate::codes;
+use crate::scene::{FilmSettings, OutputSettings};
+use crate::settings::Settings;
+use indigo_decl::Node;
+use indigo_diag::{Diagnostic, Sink};
+use indigo_film::{FilmFilter, FilmSize, Filter};
+use indigo_imaging::{Exposure, PictureSettings, Region, ToneMapping, WhiteBalance};
+use indigo_spectrum::illuminant;
+
+/// The tone mapping of a scene that has none.
+const DEFAULT_TONE_MAPPING: ToneMapping = ToneMapping::Reinhard { pre_scale: 4.0, post_scale: 1.2, burn: 6.0 };
+
+/// The film; `None` after reporting an impossible size.
+pub(super) fn film(settings: &Settings, sink: &mut Sink) -> Option<FilmSettings> {
+    let dimension = |field: &str| u32::try_from(settings.int(field).value).unwrap_or(u32::MAX);
+    let (width, height) = (dimension("width"), dimension("height"));
+    let filter = filter(settings, "splat_filter", Filter::Gaussian, sink);
+    let size = FilmSize::new(width, height, dimension("super_sample_factor"))
+        .map_err(|e| sink.push(Diagnostic::error(codes::PICTURE_SIZE, settings.span_of("width"), e.to_string())))
+        .ok()?;
+    let region = region(settings, size, sink).map(|r| [[r.start()[0], r.end()[0]], [r.start()[1], r.end()[1]]]);
+    let filter = FilmFilter::new(filter, size)
+        .map_err(|e| sink.push(Diagnostic::error(codes::PICTURE_SIZE, settings.span_of("splat_filter"), e.to_string())))
+        .ok()?;
+    Some(FilmSettings { size, filter, region })
+}
+
+fn region(settings: &Settings, size: FilmSize, sink: &mut Sink) -> Option<Region> {
+    let node = settings.node("render_region")?;
+    let at = |field: &str| u32::try_from(node.int(field)).unwrap_or(u32::MAX);
+    Region::new([at("x1"), at("y1")], [at("x2"), at("y2")], size)
+        .map_err(|e| {
+            sink.push(
+                Diagnostic::error(codes::PICTURE_SIZE, node.span, e.to_string())
+                    .expected(format!("expected x1 < x2 <= {} and y1 < y2 <= {}", size.width(), size.height())),
+            );
+        })
+        .ok()
+}
+
+fn filter(settings: &Settings, field: &str, default: Filter, sink: &mut Sink) -> Filter {
+    let Some(kind) = settings.node(field).and_then(Node::alternative) else { return default };
+    kind.mark_used();
+    let filter = match kind.block.name {
+        "box" => Filter::Box,
+        "gaussian" => Filter::Gaussian,
+        _ => Filter::MitchellNetravali { blur: kind.real("blur"), ring: kind.real("ring") },
+    };
+    match filter.check() {
+        Ok(()) => filter,
+        Err(error) => {
+            sink.push(Diagnostic::error(indigo_decl::codes::OUT_OF_RANGE, kind.span, error.to_string()));
+            default
+        }
+    }
+}
+
+/// How the picture is made; `None` after reporting what is wrong.
+pub(super) fn picture(root: &Node, camera: Option<&Node>, settings: &Settings, sink: &mut Sink) -> Option<PictureSettings> {
+    let tone_mapping = tone_mapping(root, sink);
+    let downsize = filter(settings, "downsize_filter", Filter::MN_DEFAULT, sink);
+    let foreground_alpha = settings.bool("render_foreground_alpha");
+    settings.refuse_true("watermark", None, sink);
+    let camera = camera?;
+    let white = camera.text("white_balance");
+    let Some(xy) = illuminant::white_point(&white.value) else {
+        sink.push(
+            Diagnostic::error(codes::UNKNOWN_WHITE, white.span, format!("{} is not a white", white.value))
+                .expected("expected A, B, C, D50, D55, D65, D75, E, F1 to F12, or a chromaticity x y"),
+        );
+        return None;
+    };
+    let exposure = Exposure {
+        aperture_radius: camera.real("aperture_radius"),
+        lens_sensor_dist: camera.real("lens_sensor_dist"),
+        duration: camera.real("exposure_duration"),
+    };
+    let white_balance = WhiteBalance::from_white(xy)
+        .map_err(|e| sink.push(Diagnostic::error(codes::UNKNOWN_WHITE, white.span, e.to_string())))
+        .ok()?;
+    let region = film(settings, &mut Sink::new()).and_then(|f| {
+        let [x, y] = f.region?;
+        Region::new([x[0], y[0]], [x[1], y[1]], f.size).ok()
+    });
+    Some(PictureSettings { tone_mapping, white_balance, downsize, exposure, foreground_alpha, region })
+}
+
+fn tone_mapping(root: &Node, sink: &mut Sink) -> ToneMapping {
+    let Some(node) = root.node("tonemapping") else {
+        sink.push(
+            Diagnostic::warning(codes::NO_TONEMAPPING, root.span, "the scene has no <tonemapping>: reinhard 4, 1.2, 6 is used")
+                .hint("add <tonemapping><reinhard>...</reinhard></tonemapping>"),
+        );
+        return DEFAULT_TONE_MAPPING;
+    };
+    match node.alternative() {
+        Some(t) if t.block.name == "linear" => ToneMapping::Linear { scale: t.real("scale") },
+        Some(t) if t.block.name == "reinhard" => ToneMapping::Reinhard {
+            pre_scale: t.real("pre_scale"),
+            post_scale: t.real("post_scale"),
+            burn: t.real("burn"),
+        },
+        // Left unread, and so reported.
+        _ => DEFAULT_TONE_MAPPING,
+    }
+}
+
+/// What is written, and when.
+pub(super) fn output(settings: &Settings, sink: &mut Sink, scene_path: &str) -> OutputSettings {
+    settings.refuse_true("save_igi", None, sink);
+    // Only network slaves look at it.
+    settings.disregard("frame_upload_period");
+    let positive = |field: &str| Some(settings.real(field)).filter(|v| *v > 0.0);
+    let threads = usize::try_from(settings.int("num_threads").value).unwrap_or(1);
+    OutputSettings {
+        scene_path: scene_path.to_owned(),
+        untonemapped_exr: settings.bool("save_untonemapped_exr"),
+        tonemapped_exr: settings.bool("save_tonemapped_exr"),
+        image_save_period: settings.real("image_save_period"),
+        halt_time: positive("halt_time"),
+        halt_samples_per_pixel: positive("halt_samples_per_pixel"),
+        threads: (!settings.bool("auto_choose_num_threads")).then_some(threads),
+        logging: settings.bool("logging"),
+        display_period: settings.real("display_period"),
+    }
+}

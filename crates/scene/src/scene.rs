@@ -1,0 +1,115 @@
+//! A scene that can be traced.
+
+use indigo_camera::ThinLens;
+use indigo_film::{FilmFilter, FilmSize};
+use indigo_geom::{Accel, SurfacePoint};
+use indigo_imaging::PictureSettings;
+use indigo_light::LightTable;
+use indigo_math::Real;
+use indigo_scatter::Material;
+use indigo_texture::Texture;
+
+/// Everything that rendering needs, in render space: the world moved so that the camera is its origin.
+pub struct Scene {
+    /// All geometry.
+    pub accel: Accel,
+    /// All lights.
+    pub lights: LightTable,
+    /// The camera.
+    pub camera: ThinLens,
+    /// All textures.
+    pub textures: Vec<Texture>,
+    pub(crate) materials: Vec<Material>,
+    /// For each object the first of its material slots in `slots`.
+    pub(crate) first_slot: Vec<u32>,
+    /// Material number of each slot of each object.
+    pub(crate) slots: Vec<u32>,
+    /// Whether any surface in use is invisible, so that rays must look for them.
+    pub has_invisible_surfaces: bool,
+    /// Floor under the distance by which rays start off a surface, metres.
+    pub nudge_m: Real,
+    /// How light is transported.
+    pub transport: TransportSettings,
+    /// The film.
+    pub film: FilmSettings,
+    /// How the picture is made from the film.
+    pub picture: PictureSettings,
+    /// What is written, and when.
+    pub output: OutputSettings,
+}
+
+/// How light is transported.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TransportSettings {
+    /// Largest number of scattering events between camera and light.
+    pub max_depth: u32,
+}
+
+/// The film and how samples fall on it.
+#[derive(Clone, Debug)]
+pub struct FilmSettings {
+    /// Resolution.
+    pub size: FilmSize,
+    /// Splat filter.
+    pub filter: FilmFilter,
+    /// Columns and rows of the output picture that are rendered: first and last (excluded).
+    pub region: Option<[[u32; 2]; 2]>,
+}
+
+/// What is written, and when; times in seconds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OutputSettings {
+    /// Path of the scene, as given.
+    pub scene_path: String,
+    /// Whether an EXR of luminances is written.
+    pub untonemapped_exr: bool,
+    /// Whether an EXR of the developed picture is written.
+    pub tonemapped_exr: bool,
+    /// How often pictures are written.
+    pub image_save_period: f64,
+    /// Rendering time after which to halt.
+    pub halt_time: Option<f64>,
+    /// Samples per output pixel at which to halt.
+    pub halt_samples_per_pixel: Option<f64>,
+    /// Number of threads; `None`: as many as there are logical cores.
+    pub threads: Option<usize>,
+    /// Whether a log file is written.
+    pub logging: bool,
+    /// How often the picture on a screen is renewed.
+    pub display_period: f64,
+}
+
+/// How much a scene holds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SceneStats {
+    /// Geometry.
+    pub geometry: indigo_geom::Stats,
+    /// Placed objects.
+    pub objects: usize,
+    /// Lights.
+    pub lights: usize,
+    /// Materials in use.
+    pub materials: usize,
+    /// Textures in use.
+    pub textures: usize,
+}
+
+impl Scene {
+    /// The material at a point of a surface.
+    #[inline]
+    pub fn material_at(&self, at: &SurfacePoint) -> &Material {
+        let slot = self.first_slot[at.object as usize] + at.material_slot;
+        &self.materials[self.slots[slot as usize] as usize]
+    }
+
+    /// How much the scene holds.
+    pub fn stats(&self) -> SceneStats {
+        SceneStats {
+            geometry: self.accel.stats(),
+            objects: self.accel.objects().len(),
+            lights: self.lights.lights().len(),
+            materials: self.materials.len(),
+            textures: self.textures.len(),
+        }
+    }
+}

@@ -1,0 +1,4 @@
+//! Techniques: from a primary sample to light.
+
+pub mod path;
+mod visibility;

@@ -1,0 +1,199 @@
+//! Unidirectional path tracing with next-event estimation.
+//!
+//! At every vertex light is gathered in two ways, by drawing a point of a light and by letting the
+//! scattered ray find one, and both are weighted by multiple importance sampling with the power
+//! heuristic (Veach 1997, section 9.2). All densities are kept for each wavelength: the path
+//! carries `beta`, its throughput over the *hero's* density, and `ratio`, each lane's density over the
+//! hero's; a lane's estimate is `beta / mean(ratio)` (Wilkie et al. 2014, equation 12). Weights
+//! between strategies use densities averaged over the lanes.
+
+use super::visibility::{continue_beyond, is_lit, spawn};
+use crate::sampler::{Block, PrimarySample};
+use indigo_camera::CameraRay;
+use indigo_geom::{Ray, SurfacePoint};
+use indigo_math::{Real, Vec3};
+use indigo_scatter::{MaterialContext, Mode, ShadingPoint};
+use indigo_scene::Scene;
+use indigo_spectrum::{LanePdf, SampledSpectrum, SampledWavelengths};
+
+/// Vertices before roulette sets in: short paths carry most of the light.
+const ROULETTE_FROM: u32 = 3;
+
+/// Light that arrives along a camera ray.
+#[derive(Clone, Copy, Debug)]
+pub struct PathSample {
+    /// Radiance, W m^-3 sr^-1.
+    pub radiance: SampledSpectrum,
+    /// 1 where the ray meets a visible surface, 0 where it leaves the scene.
+    pub alpha: Real,
+}
+
+/// A path on its way from the camera.
+struct Path {
+    beta: SampledSpectrum,
+    ratio: LanePdf,
+    radiance: SampledSpectrum,
+    /// How the last direction was drawn; none for the camera's own.
+    last: Option<LastScatter>,
+}
+
+/// The last scattering event, as multiple importance sampling needs it.
+#[derive(Clone, Copy)]
+struct LastScatter {
+    p: Vec3,
+    n: Vec3,
+    /// Densities of the direction over the *path's* hero density: `ratio` before times the lanes' pdf.
+    pdf: LanePdf,
+    /// The same for the strategies that end here: `mean(ratio)` before the direction was drawn.
+    prefix: Real,
+}
+
+impl LastScatter {
+    /// Weight of having found a light by scattering, where `pdf_light` is the density (1/sr) of
+    /// having drawn it.
+    #[inline]
+    fn weight(&self, pdf_light: Real) -> Real {
+        power_heuristic(self.pdf.mean(), self.prefix * pdf_light)
+    }
+}
+
+#[inline]
+fn power_heuristic(a: Real, b: Real) -> Real {
+    // Divided by the larger first, so that squares neither overflow nor vanish.
+    if a <= 0.0 {
+        return 0.0;
+    }
+    if a >= b {
+        let r = b / a;
+        1.0 / (1.0 + r * r)
+    } else {
+        let r = a / b;
+        r * r / (1.0 + r * r)
+    }
+}
+
+impl Path {
+    fn new() -> Self {
+        Self {
+            beta: SampledSpectrum::ONE,
+            ratio: LanePdf::ONE,
+            radiance: SampledSpectrum::ZERO,
+            last: None,
+        }
+    }
+
+    /// Adds light that the ray itself met, which light sampling would draw with `pdf_light` (1/sr).
+    #[inline]
+    fn add_found(&mut self, light: SampledSpectrum, pdf_light: impl FnOnce(&LastScatter) -> Real) {
+        let weight = self.last.map_or(1.0, |l| l.weight(pdf_light(&l)));
+        self.radiance += self.beta * light * (weight / self.ratio.mean());
+    }
+
+    /// Adds light that was drawn from the lights at a vertex.
+    #[inline]
+    fn add_drawn(&mut self, f_cos: SampledSpectrum, light: SampledSpectrum, pdf_light: Real, pdf: LanePdf) {
+        let prefix = self.ratio.mean();
+        let weight = power_heuristic(prefix * pdf_light, (self.ratio * pdf).mean());
+        self.radiance += self.beta * f_cos * light * (weight / (prefix * pdf_light));
+    }
+
+    /// Goes on with some chance and makes up for the rest, by the largest lane's throughput.
+    #[inline]
+    fn survives_roulette(&mut self, u: Real) -> bool {
+        let chance = (self.beta.max_lane() / self.ratio.mean()).min(1.0);
+        if u >= chance {
+            return false;
+        }
+        self.beta = self.beta * (1.0 / chance);
+        true
+    }
+}
+
+/// Traces the path of a camera ray.
+///
+/// `max_depth` is the largest number of scattering events between camera and light.
+pub fn trace(
+    scene: &Scene,
+    sample: &mut impl PrimarySample,
+    lambda: &SampledWavelengths,
+    camera: &CameraRay,
+    max_depth: u32,
+) -> PathSample {
+    let mut path = Path::new();
+    let mut ray = Ray::new(camera.origin, camera.direction);
+    let mut alpha = 0.0;
+    let mut depth = 0;
+    loop {
+        let Some(hit) = scene.accel.intersect(&ray) else {
+            if let Some(light) = scene.lights.environment(lambda) {
+                path.add_found(light, |last| scene.lights.pdf_environment(last.n, ray.d));
+            }
+            break;
+        };
+        let at = scene.accel.surface(&ray, &hit);
+        let wo = -ray.d;
+        add_emission(scene, &mut path, &at, wo, lambda);
+        let context = MaterialContext { textures: &scene.textures, lambda };
+        let Some(leaf) = scene.material_at(&at).leaf(&context, |set| scene.accel.uv(&at, set)) else {
+            // Not a scattering event: the path goes on as if nothing were here.
+            ray = continue_beyond(scene, &ray, &at);
+            continue;
+        };
+        alpha = 1.0;
+        if depth == max_depth {
+            break;
+        }
+        let shading = ShadingPoint::new(leaf, at.n_g, at.n_s, wo);
+        let lights = sample.block(Block::light(depth));
+        add_direct_light(scene, &mut path, &at, &shading, lights, lambda);
+        if depth >= ROULETTE_FROM && !path.survives_roulette(lights[3]) {
+            break;
+        }
+        let [u0, u1, u2, _] = sample.block(Block::scatter(depth));
+        let Some(next) = shading.sample([u0, u1, u2], Mode::Radiance) else { break };
+        path.last = Some(LastScatter {
+            p: at.p,
+            n: shading.n_g(),
+            pdf: path.ratio * next.pdf,
+            prefix: path.ratio.mean(),
+        });
+        path.beta = path.beta * next.weight;
+        path.ratio = path.ratio * next.pdf.ratio_to_hero();
+        if path.beta.is_black() {
+            break;
+        }
+        ray = spawn(scene, &at, next.wi);
+        depth += 1;
+    }
+    PathSample { radiance: path.radiance * camera.importance, alpha }
+}
+
+#[inline]
+fn add_emission(scene: &Scene, path: &mut Path, at: &SurfacePoint, wo: Vec3, lambda: &SampledWavelengths) {
+    let cos = wo.dot(at.n_g);
+    if cos <= 0.0 {
+        return;
+    }
+    if let Some(light) = scene.lights.emitted(at.object, lambda) {
+        path.add_found(light, |last| scene.lights.pdf_object(at.object, (at.p - last.p).length2(), cos));
+    }
+}
+
+#[inline]
+fn add_direct_light(
+    scene: &Scene,
+    path: &mut Path,
+    at: &SurfacePoint,
+    shading: &ShadingPoint,
+    u: [Real; 4],
+    lambda: &SampledWavelengths,
+) {
+    let Some(light) = scene.lights.sample(at.p, shading.n_g(), [u[0], u[1], u[2]], lambda) else { return };
+    let response = shading.eval(light.wi, Mode::Radiance);
+    if response.f_cos.is_black() || light.radiance.is_black() {
+        return;
+    }
+    if is_lit(scene, at, &light) {
+        path.add_drawn(response.f_cos, light.radiance, light.pdf, response.pdf);
+    }
+}
