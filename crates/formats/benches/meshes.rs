@@ -13,7 +13,7 @@ const REPEATS: usize = 7;
 
 fn main() {
     report("binary .ply", &ply::write_binary(&grid(708)), ply::read);
-    report("ascii .obj with uvs and normals", &obj_text(&grid(420)), obj::read);
+    report("ascii .obj with uvs and normals", &obj_text(&grid(500)), obj::read);
 }
 
 /// A wavy height field of `2 n²` triangles.

@@ -1,6 +1,7 @@
 //! Pictures as plain texels: PNG, JPEG, TGA, BMP, TIFF, Radiance HDR (by the crate `image`) and EXR (by `exr`).
 
 use std::io::Cursor;
+use std::panic::{UnwindSafe, catch_unwind};
 
 use crate::error::{FormatError, Position};
 
@@ -45,18 +46,33 @@ pub enum Pixels {
 /// 4 GiB when decoded. Positions are the file's start: the decoders do not tell more.
 pub fn decode(file_name: &str, bytes: &[u8]) -> Result<Image, FormatError> {
     if bytes.starts_with(&exr_file::MAGIC) {
-        return exr_file::decode(bytes);
+        return guarded("EXR", || exr_file::decode(bytes));
     }
     let by_content = ::image::guess_format(bytes).ok();
     let by_name = || ::image::ImageFormat::from_path(file_name).ok();
     match by_content.or_else(by_name) {
-        Some(format) if raster::is_known(format) => raster::decode(format, Cursor::new(bytes)),
+        Some(format) if raster::is_known(format) => {
+            guarded(raster::name(format), || raster::decode(format, Cursor::new(bytes)))
+        }
         _ => Err(FormatError::new(
             Position::Byte(0),
             "a picture of a known type (PNG, JPEG, TGA, BMP, TIFF, HDR, EXR)",
             format!("'{file_name}', whose name and content are of none of them"),
         )),
     }
+}
+
+/// Turns a decoder's panic into an error. The decoders are others' work and not free of panics on damaged files (`exr`
+/// 1.74.2 overflows in its B44 codec where overflow checks are on); they keep no state that could be left broken.
+fn guarded(
+    kind: &str,
+    decode: impl FnOnce() -> Result<Image, FormatError> + UnwindSafe,
+) -> Result<Image, FormatError> {
+    catch_unwind(decode).unwrap_or_else(|panic| {
+        let said = panic.downcast_ref::<String>().map(String::as_str);
+        let said = said.or_else(|| panic.downcast_ref().copied()).unwrap_or("it gave up");
+        Err(decoder_error(kind, &said))
+    })
 }
 
 /// Refuses a size beyond the limits; called before anything is allocated for it.

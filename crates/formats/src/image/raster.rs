@@ -12,8 +12,21 @@ pub(super) fn is_known(format: ImageFormat) -> bool {
     matches!(format, Png | Jpeg | Tga | Bmp | Tiff | Hdr)
 }
 
+/// What the kind is called in messages.
+pub(super) fn name(format: ImageFormat) -> &'static str {
+    match format {
+        ImageFormat::Png => "PNG",
+        ImageFormat::Jpeg => "JPEG",
+        ImageFormat::Tga => "TGA",
+        ImageFormat::Bmp => "BMP",
+        ImageFormat::Tiff => "TIFF",
+        ImageFormat::Hdr => "HDR",
+        _ => "picture",
+    }
+}
+
 pub(super) fn decode(format: ImageFormat, bytes: Cursor<&[u8]>) -> Result<Image, FormatError> {
-    let complaint = |error: ::image::ImageError| decoder_error(&format!("{format:?}").to_uppercase(), &error);
+    let complaint = |error: ::image::ImageError| decoder_error(name(format), &error);
     let mut reader = ImageReader::with_format(bytes, format);
     let mut limits = Limits::default();
     limits.max_image_width = Some(MAX_SIDE);

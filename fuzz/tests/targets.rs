@@ -1,0 +1,117 @@
+//! The fuzz targets: every reader of files that users bring.
+
+use indigo_decl::{ResolveError, Resolved, Resolver};
+use indigo_diag::{Sink, SourceMap};
+use indigo_formats::image::Pixels;
+use indigo_formats::{MeshData, MeshFormat, image};
+use indigo_fuzz::fuzz;
+use indigo_igs::{Limits, read_scene};
+
+/// The files of a folder below `seeds`, in order of their names.
+fn seeds(folder: &str) -> Vec<Vec<u8>> {
+    let folder = format!("{}/seeds/{folder}", env!("CARGO_MANIFEST_DIR"));
+    let mut paths: Vec<_> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    paths.sort();
+    paths.into_iter().map(|path| std::fs::read(path).unwrap()).collect()
+}
+
+/// Whatever is read must be a mesh that the renderer can take.
+fn fuzz_mesh(format: MeshFormat, folder: &str) {
+    fuzz(&seeds(folder), |bytes| match format.read(bytes) {
+        Ok(mesh) => check(&mesh),
+        Err(error) => assert!(!error.expected.is_empty() && !error.found.is_empty()),
+    });
+}
+
+fn check(mesh: &MeshData) {
+    let n = mesh.positions.len();
+    assert!(mesh.positions.iter().flatten().all(|x| x.is_finite()));
+    assert!(mesh.normals.iter().flatten().all(|x| x.is_finite()));
+    assert!(mesh.normals.is_empty() || mesh.normals.len() == n);
+    assert!(mesh.uv_sets.iter().all(|set| set.len() == n));
+    assert!(mesh.uv_names.iter().all(|&(_, set)| (set as usize) < mesh.uv_sets.len()));
+    assert!(mesh.triangles.iter().flatten().all(|&i| (i as usize) < n));
+    assert_eq!(mesh.triangle_materials.len(), mesh.triangles.len());
+    assert!(mesh.triangle_materials.iter().all(|&m| (m as usize) < mesh.material_names.len()));
+}
+
+#[test]
+fn obj() {
+    fuzz_mesh(MeshFormat::Obj, "obj");
+}
+
+#[test]
+fn ply() {
+    fuzz_mesh(MeshFormat::Ply, "ply");
+}
+
+#[test]
+fn three_ds() {
+    fuzz_mesh(MeshFormat::ThreeDs, "3ds");
+}
+
+#[test]
+fn igmesh() {
+    fuzz_mesh(MeshFormat::Igmesh, "igmesh");
+}
+
+/// TGA has no mark of its own: the name says what to try when the content does not.
+#[test]
+fn picture() {
+    fuzz(&seeds("picture"), |bytes| {
+        if let Ok(image) = image::decode("picture.tga", bytes) {
+            let values = match &image.pixels {
+                Pixels::U8(values) => values.len(),
+                Pixels::U16(values) => values.len(),
+                Pixels::F32(values) => values.len(),
+            };
+            assert!(matches!(image.channels, 1 | 3));
+            assert_eq!(values, image.width as usize * image.height as usize * usize::from(image.channels));
+        }
+    });
+}
+
+/// A scene in memory; everything that it includes is missing.
+struct Memory<'a>(&'a [u8]);
+
+impl Resolver for Memory<'_> {
+    fn read(&self, path: &str, from: &str) -> Result<Resolved, ResolveError> {
+        if from.is_empty() {
+            Ok(Resolved { path: path.to_owned(), bytes: self.0.into() })
+        } else {
+            Err(ResolveError::NotFound { looked: vec![path.to_owned()] })
+        }
+    }
+}
+
+#[test]
+fn scene() {
+    fuzz(&seeds("scene"), |bytes| {
+        let mut sources = SourceMap::default();
+        let mut sink = Sink::new();
+        let tree = read_scene("scene.igs", &Memory(bytes), &mut sources, &mut sink, &Limits::default());
+        assert!(tree.is_some() || sink.has_errors(), "nothing was read, and nothing was said of it");
+        for diagnostic in sink.diagnostics() {
+            let json = indigo_diag::to_json(diagnostic, &sources);
+            assert!(!json.is_empty());
+        }
+    });
+}
+
+/// A seed that is not itself read teaches nothing.
+#[test]
+fn seeds_are_sound() {
+    for (folder, format) in [
+        ("obj", MeshFormat::Obj),
+        ("ply", MeshFormat::Ply),
+        ("3ds", MeshFormat::ThreeDs),
+        ("igmesh", MeshFormat::Igmesh),
+    ] {
+        for seed in seeds(folder) {
+            assert_eq!(format.read(&seed).err(), None, "{folder}");
+        }
+    }
+    for seed in seeds("picture") {
+        assert_eq!(image::decode("picture.tga", &seed).err(), None);
+    }
+}
