@@ -84,15 +84,23 @@ impl<'a, const BIG: bool> Binary<'a, BIG> {
         Self { bytes, at: at.min(bytes.len()) }
     }
 
+    /// Called for every number of a file, so it must come down to a comparison and an addition.
+    #[inline]
     fn take(&mut self, n: usize, what: &str) -> Result<&'a [u8], FormatError> {
         let end = self.at.checked_add(n);
-        let Some(taken) = end.and_then(|end| self.bytes.get(self.at..end)) else {
-            return Err(
-                self.error(&format!("{what} ({n} bytes)"), &format!("only {} bytes more", self.remaining()))
-            );
-        };
-        self.at += n;
-        Ok(taken)
+        let taken = end.and_then(|end| self.bytes.get(self.at..end));
+        match taken {
+            Some(taken) => {
+                self.at += n;
+                Ok(taken)
+            }
+            None => Err(self.ended(n, what)),
+        }
+    }
+
+    #[cold]
+    fn ended(&self, n: usize, what: &str) -> FormatError {
+        self.error(&format!("{what} ({n} bytes)"), &format!("only {} bytes more", self.remaining()))
     }
 }
 
@@ -134,6 +142,7 @@ impl<const BIG: bool> Values for Binary<'_, BIG> {
         })
     }
 
+    #[inline]
     fn integer(&mut self, scalar: Scalar) -> Result<i64, FormatError> {
         let at = self.at;
         let bytes = self.take(scalar.size(), "a whole number")?;
