@@ -62,6 +62,7 @@ macro_rules! registry {
             /// From the element of a kind of material; `None` where nothing renders that kind yet.
             pub fn build(node: &Node, resources: &mut dyn MaterialResources) -> Option<Self> {
                 if std::ptr::eq(node.block, &raw const null_material::BLOCK) {
+                    node.mark_used();
                     return Some(Self::Null);
                 }
                 $(if std::ptr::eq(node.block, &raw const $name::BLOCK) {
@@ -145,7 +146,7 @@ pub static MATERIAL: Block = Block::new(
         Later::new("sum", "4.0"),
         Later::new("external", "3.0"),
     ],
-    ..Alternatives::new("a kind of material", KINDS)
+    ..Alternatives::new("kind of material", KINDS)
 })
 .with_later(&[
     Later::new("uid", "3.0"),
