@@ -157,7 +157,7 @@ pub static APERTURE_SHAPE: Block = Block::new(
     "The shape of the aperture. A picture of it is saved as `aperture_preview.png`.",
     &[],
 )
-.with_alternatives(Alternatives::new("a shape", &[&CIRCULAR, &IMAGE, &GENERATED]))
+.with_alternatives(Alternatives::new("shape", &[&CIRCULAR, &IMAGE, &GENERATED]))
 .with_example("<aperture_shape><circular/></aperture_shape>");
 
 /// The declaration of `circular`.

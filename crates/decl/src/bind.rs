@@ -46,8 +46,9 @@ fn bind_child(child: Element, parent: &str, node: &mut Node, implied: &mut Vec<E
             ));
             node.slots[i].clear();
         }
-        if let Some(slot) = bind_field(child, field, sink) {
-            node.slots[i].push(slot);
+        match bind_field(child, field, sink) {
+            Some(slot) => node.slots[i].push(slot),
+            None => node.faulty.push(field.name),
         }
         return;
     }
@@ -121,7 +122,7 @@ fn bind_field(child: Element, field: &'static Field, sink: &mut Sink) -> Option<
         Kind::OneOf(alternatives) => {
             bind_one_of(child, alternatives, sink).and_then(|n| slot(span, Content::Node(Box::new(n))))
         }
-        Kind::EmbeddedMesh => {
+        Kind::EmbeddedMesh(_) => {
             let mesh = child.mesh?;
             slot(span, Content::Mesh(mesh))
         }
@@ -196,7 +197,7 @@ fn unwrap(mut child: Element, wrapper: &str, sink: &mut Sink) -> Element {
 
 fn report_missing(name: &str, node: &Node, sink: &mut Sink) {
     for (field, slots) in node.block.fields.iter().zip(&node.slots) {
-        if field.presence == Presence::Required && slots.is_empty() {
+        if field.presence == Presence::Required && slots.is_empty() && !node.faulty.contains(&field.name) {
             report::missing(name, node.span, field, sink);
         }
     }
@@ -220,7 +221,7 @@ fn report_groups(name: &str, node: &Node, sink: &mut Sink) {
     for Group { fields, exclusive } in node.block.needs {
         let given: Vec<&&str> = fields.iter().filter(|f| node.has(f)).collect();
         let list = fields.iter().map(|f| format!("<{f}>")).collect::<Vec<_>>().join(", ");
-        if given.is_empty() {
+        if given.is_empty() && !fields.iter().any(|f| node.faulty.contains(f)) {
             sink.push(
                 Diagnostic::error(codes::MISSING_ELEMENT, node.span, format!("<{name}> has none of {list}"))
                     .expected("expected one of them inside"),

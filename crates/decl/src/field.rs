@@ -84,7 +84,7 @@ impl Block {
 /// Children of which exactly one must be present.
 #[derive(Clone, Copy, Debug)]
 pub struct Alternatives {
-    /// What they are, such as "a tone mapper".
+    /// What they are, such as "filter": a noun that takes the article "a".
     pub what: &'static str,
     /// The declarations to choose from.
     pub blocks: &'static [&'static Block],
@@ -228,8 +228,8 @@ pub enum Kind {
     Block(&'static Block),
     /// An element whose content is exactly one of several blocks, directly or in a `constant` wrapper.
     OneOf(&'static Alternatives),
-    /// The bulk data of an embedded mesh.
-    EmbeddedMesh,
+    /// The bulk data of an embedded mesh; the block documents its elements.
+    EmbeddedMesh(&'static Block),
 }
 
 impl Kind {
@@ -249,8 +249,8 @@ impl Kind {
             Self::Name => "a name".to_owned(),
             Self::Reference(what) => format!("the name of a {what}"),
             Self::Block(_) => "elements".to_owned(),
-            Self::OneOf(a) => a.what.to_owned(),
-            Self::EmbeddedMesh => "vertices and triangles".to_owned(),
+            Self::OneOf(a) => format!("a {}", a.what),
+            Self::EmbeddedMesh(_) => "vertices and triangles".to_owned(),
         }
     }
 }

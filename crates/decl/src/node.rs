@@ -19,6 +19,8 @@ pub struct Node {
     pub(crate) alternative: Option<Box<Node>>,
     /// Whether its absence was reported already, in better words.
     pub(crate) alternative_reported: bool,
+    /// Fields that were given but so wrong that nothing came of them, which was reported.
+    pub(crate) faulty: Vec<&'static str>,
     /// Whether lowering made use of this element.
     pub(crate) used: Cell<bool>,
 }
@@ -47,6 +49,7 @@ impl Node {
             slots: block.fields.iter().map(|_| vec![]).collect(),
             alternative: None,
             alternative_reported: false,
+            faulty: vec![],
             used: Cell::new(false),
         }
     }
@@ -79,11 +82,6 @@ impl Node {
     /// (`<null_material/>`).
     pub fn mark_used(&self) {
         self.used.set(true);
-    }
-
-    /// Whether lowering made use of this element.
-    pub fn is_used(&self) -> bool {
-        self.used.get()
     }
 
     /// The chosen alternative.

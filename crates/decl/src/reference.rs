@@ -1,73 +1,136 @@
 //! The scene-format reference, written from the declarations.
 
+use crate::codes::Code;
 use crate::field::{Alternatives, Block, Field, Kind, Presence, Range};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, VecDeque};
 use std::fmt::Write as _;
 
-/// The reference of a block and of everything below it, as Markdown.
-///
-/// Every block is described once, in the order in which it is first met.
-pub fn markdown(root: &'static Block) -> String {
-    let mut out = String::new();
-    let mut seen = BTreeSet::new();
-    let mut queue = std::collections::VecDeque::from([root]);
-    while let Some(block) = queue.pop_front() {
-        if seen.insert(std::ptr::from_ref(block) as usize) {
-            describe(&mut out, block);
-            queue.extend(inner_blocks(block));
+/// A block and where it was first met.
+#[derive(Clone, Copy, Debug)]
+struct Entry {
+    block: &'static Block,
+    /// Name of the block or field that leads to it; empty for the root.
+    parent: &'static str,
+}
+
+/// Every block at or below `root`, each once, in the order in which it is first met.
+pub fn blocks(root: &'static Block) -> Vec<&'static Block> {
+    entries(root).into_iter().map(|e| e.block).collect()
+}
+
+fn entries(root: &'static Block) -> Vec<Entry> {
+    let mut out: Vec<Entry> = vec![];
+    let mut queue = VecDeque::from([Entry { block: root, parent: "" }]);
+    while let Some(entry) = queue.pop_front() {
+        if !out.iter().any(|e| std::ptr::eq(e.block, entry.block)) {
+            out.push(entry);
+            queue.extend(inner_blocks(entry.block));
         }
     }
     out
 }
 
-fn inner_blocks(block: &'static Block) -> Vec<&'static Block> {
+fn inner_blocks(block: &'static Block) -> Vec<Entry> {
     let mut inner = vec![];
     for field in block.fields {
         match field.kind {
-            Kind::Block(b) => inner.push(b),
-            Kind::OneOf(a) => inner.extend(a.blocks),
+            Kind::Block(b) | Kind::EmbeddedMesh(b) => inner.push(Entry { block: b, parent: block.name }),
+            Kind::OneOf(a) => inner.extend(a.blocks.iter().map(|b| Entry { block: b, parent: field.name })),
             _ => {}
         }
     }
-    inner.extend(block.alternatives.iter().flat_map(|a| a.blocks));
+    if let Some(a) = &block.alternatives {
+        inner.extend(a.blocks.iter().map(|b| Entry { block: b, parent: block.name }));
+    }
     inner
 }
 
-fn describe(out: &mut String, block: &Block) {
-    let _ = writeln!(out, "## `{}`\n\n{}\n", block.name, block.doc.trim());
+/// Headings of all blocks: their names, with the parent's where several blocks share a name.
+struct Headings(Vec<(Entry, String)>);
+
+impl Headings {
+    fn new(entries: &[Entry]) -> Self {
+        let mut count: BTreeMap<&str, usize> = BTreeMap::new();
+        for e in entries {
+            *count.entry(e.block.name).or_default() += 1;
+        }
+        let heading = |e: &Entry| {
+            let name = e.block.name;
+            if count[name] > 1 { format!("{name} in {}", e.parent) } else { name.to_owned() }
+        };
+        Self(entries.iter().map(|e| (*e, heading(e))).collect())
+    }
+
+    /// A link to the section of a block.
+    fn link(&self, block: &Block) -> String {
+        let found = self.0.iter().find(|(e, _)| std::ptr::eq(e.block, block));
+        let heading = found.map_or(block.name, |(_, h)| h.as_str());
+        format!("[`{}`](#{})", block.name, heading.replace(' ', "-"))
+    }
+
+    fn links(&self, a: &Alternatives) -> String {
+        a.blocks.iter().map(|b| self.link(b)).collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// The reference of a block and of everything below it, as Markdown: a list of all elements, then a
+/// section for each.
+pub fn markdown(root: &'static Block) -> String {
+    let entries = entries(root);
+    let headings = Headings::new(&entries);
+    let mut out = String::from("## All elements\n\n");
+    let mut sorted: Vec<&(Entry, String)> = headings.0.iter().collect();
+    sorted.sort_by(|a, b| a.1.cmp(&b.1));
+    let index: Vec<String> = sorted.iter().map(|(_, h)| format!("[{h}](#{})", h.replace(' ', "-"))).collect();
+    let _ = writeln!(out, "{}\n", index.join(" · "));
+    for (entry, heading) in &headings.0 {
+        describe(&mut out, entry.block, heading, &headings);
+    }
+    out.truncate(out.trim_end().len());
+    out.push('\n');
+    out
+}
+
+fn describe(out: &mut String, block: &Block, heading: &str, headings: &Headings) {
+    let _ = writeln!(out, "## {heading}\n\n{}\n", block.doc.trim());
     if !block.aliases.is_empty() {
         let _ = writeln!(out, "Also written {}.\n", code_list(block.aliases));
     }
     if let Some(a) = &block.alternatives {
-        let _ = writeln!(
-            out,
-            "Holds {}{}.\n",
-            if a.optional { "at most one of " } else { "exactly one of " },
-            alternatives(a)
-        );
+        let count = if a.optional { "at most" } else { "exactly" };
+        let _ = writeln!(out, "Holds {count} one of {}.\n", headings.links(a));
     }
-    if !block.fields.is_empty() {
-        out.push_str(
-            "| element | type | unit | restriction | default | meaning |\n|---|---|---|---|---|---|\n",
-        );
-        for field in block.fields {
-            describe_field(out, field);
-        }
-        out.push('\n');
+    describe_fields(out, block, headings);
+    for group in block.needs {
+        let count = if group.exclusive { "Exactly" } else { "At least" };
+        let _ = writeln!(out, "{count} one of {} must be given.\n", code_list(group.fields));
     }
-    if !block.later.is_empty() {
-        let names: Vec<String> = block.later.iter().map(|l| format!("`{}` ({})", l.name, l.since)).collect();
-        let _ = writeln!(out, "Of later format versions, warned of and ignored: {}.\n", names.join(", "));
+    let alternatives = block.alternatives.iter().flat_map(|a| a.later);
+    let later: Vec<String> =
+        block.later.iter().chain(alternatives).map(|l| format!("`{}` ({})", l.name, l.since)).collect();
+    if !later.is_empty() {
+        let _ = writeln!(out, "Of later format versions, and not read: {}.\n", later.join(", "));
     }
     if !block.ignored.is_empty() {
-        let _ = writeln!(out, "Of old exporters, warned of and ignored: {}.\n", code_list(block.ignored));
+        let _ = writeln!(out, "Of old exporters, and ignored: {}.\n", code_list(block.ignored));
     }
     if !block.example.is_empty() {
         let _ = writeln!(out, "```xml\n{}\n```\n", block.example.trim());
     }
 }
 
-fn describe_field(out: &mut String, field: &Field) {
+fn describe_fields(out: &mut String, block: &Block, headings: &Headings) {
+    if block.fields.is_empty() {
+        return;
+    }
+    out.push_str("| element | holds | unit | restriction | default | meaning |\n|---|---|---|---|---|---|\n");
+    for field in block.fields {
+        describe_field(out, field, headings);
+    }
+    out.push('\n');
+}
+
+fn describe_field(out: &mut String, field: &Field, headings: &Headings) {
     let default = match field.presence {
         Presence::Required => "required".to_owned(),
         Presence::Optional => "optional".to_owned(),
@@ -86,37 +149,38 @@ fn describe_field(out: &mut String, field: &Field) {
         out,
         "| `{}` | {} | {} | {range} | {default} | {} |",
         field.name,
-        kind_words(&field.kind),
+        holds(&field.kind, headings),
         field.unit,
         doc.replace('|', "\\|")
     );
 }
 
-/// The type of a field in words.
-pub fn kind_words(kind: &Kind) -> String {
+fn holds(kind: &Kind, headings: &Headings) -> String {
     match kind {
-        Kind::Flag => "empty element".to_owned(),
-        Kind::Bool => "boolean".to_owned(),
-        Kind::Int => "integer".to_owned(),
-        Kind::Real => "real".to_owned(),
-        Kind::Vec3 => "3 reals".to_owned(),
-        Kind::Matrix3 => "9 reals, row-major".to_owned(),
-        Kind::Reals => "reals".to_owned(),
-        Kind::Text => "text".to_owned(),
-        Kind::Path => "path".to_owned(),
-        Kind::Choice(words) => format!("one of {}", words.join(", ")),
-        Kind::Name => "name".to_owned(),
-        Kind::Reference(what) => format!("name of a {what}"),
-        Kind::Block(b) => format!("[`{}`](#{})", b.name, b.name),
-        Kind::OneOf(a) => format!("one of {}", alternatives(a)),
-        Kind::EmbeddedMesh => "vertices and triangles".to_owned(),
+        Kind::Block(b) | Kind::EmbeddedMesh(b) => headings.link(b),
+        Kind::OneOf(a) => format!("a {}: {}", a.what, headings.links(a)),
+        Kind::Flag => "nothing".to_owned(),
+        Kind::Choice(words) => format!("one of {}", code_list(words)),
+        _ => kind.words(),
     }
-}
-
-fn alternatives(a: &Alternatives) -> String {
-    a.blocks.iter().map(|b| format!("[`{}`](#{})", b.name, b.name)).collect::<Vec<_>>().join(", ")
 }
 
 fn code_list(names: &[&str]) -> String {
     names.iter().map(|n| format!("`{n}`")).collect::<Vec<_>>().join(", ")
+}
+
+/// A table of diagnostic codes with their meanings and examples, as Markdown, in order of the codes.
+pub fn codes(all: &[&[Code]]) -> String {
+    let mut codes: Vec<&Code> = all.iter().copied().flatten().collect();
+    codes.sort_by_key(|c| c.code);
+    let mut out = String::from("| code | meaning | example |\n|---|---|---|\n");
+    for c in codes {
+        let example = match c.example {
+            "" => String::new(),
+            prose if prose.starts_with('(') => prose.to_owned(),
+            piece => format!("`{}`", piece.replace('|', "\\|")),
+        };
+        let _ = writeln!(out, "| {} | {} | {example} |", c.code, c.meaning.trim());
+    }
+    out
 }

@@ -135,7 +135,7 @@ pub(crate) fn wrong_alternative(inner: &Element, alternatives: &Alternatives, si
     let mut d = Diagnostic::error(
         codes::WRONG_ALTERNATIVE,
         inner.span,
-        format!("<{}> is not {}", inner.name, alternatives.what),
+        format!("<{}> is not a {}", inner.name, alternatives.what),
     )
     .expected(format!("expected one of {}", names(alternatives)));
     d.hint = nearest(&inner.name, alternatives.blocks.iter().map(|b| b.name))

@@ -72,7 +72,7 @@ pub fn parse(field: &Field, text: &str) -> (Value, Option<ValueError>) {
             (Value::Text(String::new()), Some(wrong_type(field)))
         }
         Kind::Text | Kind::Path | Kind::Name | Kind::Reference(_) => (Value::Text(text.to_owned()), None),
-        Kind::Block(_) | Kind::OneOf(_) | Kind::EmbeddedMesh => {
+        Kind::Block(_) | Kind::OneOf(_) | Kind::EmbeddedMesh(_) => {
             (Value::Flag, Some(ValueError::Type("elements, not text".to_owned())))
         }
     }

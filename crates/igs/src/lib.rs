@@ -25,6 +25,7 @@ mod text;
 mod tree;
 mod write;
 
+pub use embedded::{EMBEDDED, EXPOSE_UV_SET, TRIANGLE_SET, VERTEX};
 pub use include::INCLUDE;
 pub use limits::Limits;
 pub use read::{read_document, read_scene};

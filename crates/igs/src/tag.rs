@@ -98,7 +98,13 @@ pub(crate) fn start(scanner: &mut Scanner, sink: &mut Sink) -> Option<Token> {
                 }
             }
             Some(_) => {
-                let junk = scanner.find(blank + 1, |b| b.is_ascii_whitespace() || b == b'>' || b == b'<');
+                let mut junk = scanner.find(blank + 1, |b| b.is_ascii_whitespace() || b == b'>' || b == b'<');
+                if junk > blank + 1
+                    && scanner.byte(junk) == Some(b'>')
+                    && scanner.byte(junk - 1) == Some(b'/')
+                {
+                    junk -= 1;
+                }
                 fault.get_or_insert(Fault::new(blank..junk, "expected an attribute or the end of the tag"));
                 scanner.at = junk;
             }

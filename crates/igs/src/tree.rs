@@ -222,7 +222,7 @@ impl Builder<'_, '_> {
     fn line_at(&mut self, offset: usize) -> usize {
         let (from, line) = self.counted;
         let passed = self.scanner.slice(&(from..offset.max(from)));
-        self.counted = (offset.max(from), line + passed.iter().filter(|&&b| b == b'\n').count());
+        self.counted = (offset.max(from), line + passed.split(|&b| b == b'\n').count() - 1);
         self.counted.1
     }
 

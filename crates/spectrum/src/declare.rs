@@ -130,5 +130,5 @@ pub static REGULAR_TABULATED: Block = Block::new(
 /// The kinds of spectrum.
 pub static SPECTRUM: Alternatives = Alternatives {
     later: &[Later::new("xyz", "3.0")],
-    ..Alternatives::new("a spectrum", &[&UNIFORM, &BLACKBODY, &PEAK, &RGB, &REGULAR_TABULATED])
+    ..Alternatives::new("spectrum", &[&UNIFORM, &BLACKBODY, &PEAK, &RGB, &REGULAR_TABULATED])
 };

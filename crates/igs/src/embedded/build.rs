@@ -146,7 +146,7 @@ impl MeshBuilder {
         self.complete_uvs(mesh, report);
         self.complete_normals(mesh, report);
         if self.not_unit > 0 {
-            let message = format!("{} normals had another length than 1 and were normalised", self.not_unit);
+            let message = format!("normals of another length than 1 were normalised: {}", self.not_unit);
             report.warning(codes::NOT_UNIT, mesh, message);
         }
         EmbeddedMesh { data: self.data, material_spans: self.material_spans }
@@ -170,7 +170,8 @@ impl MeshBuilder {
         for (i, (values, given)) in self.data.uv_sets.iter_mut().zip(self.uvs_given).enumerate() {
             values.resize(vertices, [0.0; 2]);
             if given < vertices {
-                let message = format!("{} vertices have no uv{i}; (0, 0) is used", vertices - given);
+                let message =
+                    format!("vertices without uv{i}, for which (0, 0) is used: {}", vertices - given);
                 report.warning(codes::INCOMPLETE_VERTICES, mesh, message);
             }
         }
@@ -202,7 +203,7 @@ impl MeshBuilder {
             *n = if length > 0.0 { sum.map(|x| (x / length) as f32) } else { [0.0, 0.0, 1.0] };
         }
         let message = format!(
-            "{} vertices have no normal; that of their triangles is used",
+            "vertices without a normal, for which that of their triangles is used: {}",
             vertices - self.normals_given
         );
         report.warning(codes::INCOMPLETE_VERTICES, mesh, message);

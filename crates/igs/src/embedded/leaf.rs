@@ -11,6 +11,9 @@ use std::ops::Range;
 const OUTER: [&str; 7] =
     ["vertex", "triangle_set", "expose_uv_set", "embedded", "mesh", "scene", "scenedata"];
 
+/// Those that an `embedded` mesh is in, and itself.
+const AROUND: [&str; 4] = ["embedded", "mesh", "scene", "scenedata"];
+
 /// What an end tag does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum End {
@@ -61,6 +64,9 @@ impl Reader<'_, '_, '_> {
                 Token::Text(range) => self.add_piece(&mut leaf, range, true, &mut pieces),
                 Token::CData(range) => self.add_piece(&mut leaf, range, false, &mut pieces),
                 Token::Start { name, tag, empty } => {
+                    if self.leaves_open(&name, &tag, element) {
+                        break;
+                    }
                     if !self.unknown_element(&name, &tag, empty, &shown) {
                         return None;
                     }
@@ -108,8 +114,11 @@ impl Reader<'_, '_, '_> {
     pub(super) fn skip(&mut self, name: &Range<usize>, parent: &str) -> bool {
         while let Some(token) = self.next() {
             match token {
-                Token::Start { name, tag, empty } => {
-                    if !self.unknown_element(&name, &tag, empty, parent) {
+                Token::Start { name: inner, tag, empty } => {
+                    if self.leaves_open(&inner, &tag, self.scanner.slice(name)) {
+                        return true;
+                    }
+                    if !self.unknown_element(&inner, &tag, empty, parent) {
                         return false;
                     }
                 }
@@ -146,10 +155,31 @@ impl Reader<'_, '_, '_> {
                 Some(Token::End { name: inner, .. }) if self.scanner.slice(&inner) == written.as_bytes() => {
                     depth -= 1;
                 }
+                Some(Token::End { name: outer, tag })
+                    if AROUND.iter().any(|o| o.as_bytes() == self.scanner.slice(&outer)) =>
+                {
+                    self.check_end(&outer, &tag, written.as_bytes());
+                    return true;
+                }
                 Some(_) => {}
                 None => return false,
             }
         }
+        true
+    }
+
+    /// Whether a start tag shows that the element before it was not closed: no vertex is inside a
+    /// vertex, no triangle in a triangle. It is reported, and the tag is left for whoever it is for.
+    fn leaves_open(&mut self, name: &Range<usize>, tag: &Range<usize>, element: &[u8]) -> bool {
+        let written = self.scanner.slice(name);
+        if written != element && !OUTER.iter().any(|o| o.as_bytes() == written) {
+            return false;
+        }
+        let (written, element) = (String::from_utf8_lossy(written), String::from_utf8_lossy(element));
+        let message = format!("<{written}> stands where <{element}> is still open");
+        let span = self.scanner.span(tag);
+        self.report.error(codes::MISMATCHED_TAGS, span, message, format!("expected </{element}> before it"));
+        self.scanner.at = tag.start;
         true
     }
 

@@ -1,6 +1,7 @@
 //! Embedded meshes: vertices and triangles straight into arrays, with no element for each.
 
 mod build;
+mod declare;
 mod leaf;
 mod numbers;
 mod report;
@@ -8,6 +9,7 @@ mod report;
 use crate::codes;
 use crate::scan::{Scanner, Token};
 use build::MeshBuilder;
+pub use declare::{EMBEDDED, EXPOSE_UV_SET, TRIANGLE_SET, VERTEX};
 use indigo_decl::EmbeddedMesh;
 use indigo_diag::Sink;
 use leaf::{End, Leaf};

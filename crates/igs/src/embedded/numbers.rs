@@ -23,7 +23,7 @@ pub(super) fn indices(bytes: &[u8]) -> Option<[u64; 3]> {
 }
 
 fn words(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
-    bytes.split(|b| b.is_ascii_whitespace()).filter(|w| !w.is_empty())
+    bytes.split(u8::is_ascii_whitespace).filter(|w| !w.is_empty())
 }
 
 fn whole(word: &[u8]) -> Option<u64> {

@@ -15,7 +15,7 @@ fn read(inside: &str) -> (EmbeddedMesh, Vec<String>) {
 /// A triangle's vertices, as attributes that follow each position.
 fn vertices(attributes: [&str; 3]) -> String {
     let pos = ["0 0 0", "1 0 0", "0 1 0"];
-    (0..3).map(|i| format!("<vertex pos=\"{}\" {}/>", pos[i], attributes[i])).collect()
+    (0..3).map(|i| format!("<vertex pos=\"{}\" {}/>", pos[i], attributes[i])).collect::<Vec<_>>().concat()
 }
 
 const SET: &str = "<triangle_set><material_name>white</material_name><tri>0 1 2</tri></triangle_set>";
@@ -120,6 +120,12 @@ fn mismatched_tags_inside() {
         ("<triangle_set><material_name>w</material_nam></triangle_set>", vec!["E0006 3:31"]),
         ("<vertex pos='0 0 0'></verteks>", vec!["E0006 3:21"]),
         ("</foo>", vec!["E0006 3:1"]),
+        ("<vertex pos='0 0 0'><vertex pos='1 0 0'/>", vec!["E0006 3:21"]),
+        (
+            "<vertex pos='0 0 0'/><triangle_set><material_name>a</material_name><tri>0 0 0<tri>0 0 0</tri></triangle_set>",
+            vec!["E0006 3:78"],
+        ),
+        ("<foo><vertex pos='0 0 0'/>", vec!["W0101 3:1", "E0006 4:1"]),
     ] {
         assert_eq!(read(inside).1, expected, "{inside}");
     }

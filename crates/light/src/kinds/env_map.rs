@@ -16,7 +16,7 @@ pub static BLOCK: Block = Block::new(
     "Lights the scene with a high-dynamic-range picture of the surroundings, infinitely far away.",
     &[],
 )
-.with_alternatives(Alternatives::new("a kind of environment map", &[&LATLONG, &SPHERICAL]))
+.with_alternatives(Alternatives::new("kind of environment map", &[&LATLONG, &SPHERICAL]))
 .with_example(
     "<env_map>
     <spherical>

@@ -29,7 +29,7 @@ pub static MEDIUM: Block = Block::new(
 .with_alternatives(Alternatives {
     implied: Some(&basic::BLOCK),
     later: &[Later::new("atmosphere", "3.0"), Later::new("fast_sss", "3.0")],
-    ..Alternatives::new("a kind of medium", KINDS)
+    ..Alternatives::new("kind of medium", KINDS)
 })
 .with_later(&[
     Later::new("uid", "3.0"),

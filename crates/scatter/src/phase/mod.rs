@@ -9,4 +9,4 @@ use indigo_decl::{Alternatives, Block};
 pub static KINDS: &[&Block] = &[&uniform::BLOCK, &henyey_greenstein::BLOCK];
 
 /// The content of `phase_function`.
-pub static PHASE_FUNCTION: Alternatives = Alternatives::new("a phase function", KINDS);
+pub static PHASE_FUNCTION: Alternatives = Alternatives::new("phase function", KINDS);

@@ -6,7 +6,7 @@ const KINDS: &[&Block] = &[&BOX, &GAUSSIAN, &MN_CUBIC];
 
 const CHOICE: Alternatives = Alternatives {
     later: &[Later::new("fastbox", "2.0"), Later::new("radial", "4.0"), Later::new("sharp", "4.0")],
-    ..Alternatives::new("a filter", KINDS)
+    ..Alternatives::new("filter", KINDS)
 };
 
 /// The declaration of `splat_filter`.

@@ -11,7 +11,7 @@ pub static TONEMAPPING: Block = Block::new(
 )
 .with_alternatives(Alternatives {
     later: &[Later::new("filmic", "4.0")],
-    ..Alternatives::new("a tone mapping", &[&LINEAR, &REINHARD, &CAMERA])
+    ..Alternatives::new("tone mapping", &[&LINEAR, &REINHARD, &CAMERA])
 })
 .with_example(
     "<tonemapping><reinhard><pre_scale>1.0</pre_scale><post_scale>1.0</post_scale></reinhard></tonemapping>",
