@@ -177,7 +177,9 @@ mod tests {
 
     #[test]
     fn up_along_forwards_is_refused() {
-        assert!(ThinLens::new(&ThinLensParameters { up: Vec3d::new(0.0, -7.0, 0.0), ..parameters() }).is_none());
+        assert!(
+            ThinLens::new(&ThinLensParameters { up: Vec3d::new(0.0, -7.0, 0.0), ..parameters() }).is_none()
+        );
         assert!(ThinLens::new(&ThinLensParameters { forwards: Vec3::ZERO, ..parameters() }).is_none());
     }
 }

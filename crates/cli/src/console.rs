@@ -134,7 +134,10 @@ mod tests {
         assert_eq!(clock(Duration::from_secs(5)), "0:05");
         assert_eq!(clock(Duration::from_secs(3_725)), "1:02:05");
         assert_eq!(clock(Duration::from_secs(200_000)), "2d 7:33:20");
-        assert_eq!((scaled(12.4), scaled(1234.0), scaled(2.5e6)), ("12".into(), "1.2 k".into(), "2.50 M".into()));
+        assert_eq!(
+            (scaled(12.4), scaled(1234.0), scaled(2.5e6)),
+            ("12".into(), "1.2 k".into(), "2.50 M".into())
+        );
     }
 
     #[test]

@@ -4,6 +4,7 @@
 //! after the scene.
 
 use std::ffi::OsString;
+use std::fmt::Write as _;
 
 /// What an option does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,11 +65,31 @@ pub static FLAGS: &[Flag] = &[
         Action::Output,
         "Write the picture to PATH (.png); other files take the same stem. Without it: renders/im_<UTC time>_<scene>.png.",
     ),
-    flag("t", Some("N"), Action::Threads, "Render with N threads. Without it: as many as there are logical cores."),
-    flag("seed", Some("N"), Action::Seed, "Choose the random sequence: the same seed gives the same picture."),
+    flag(
+        "t",
+        Some("N"),
+        Action::Threads,
+        "Render with N threads. Without it: as many as there are logical cores.",
+    ),
+    flag(
+        "seed",
+        Some("N"),
+        Action::Seed,
+        "Choose the random sequence: the same seed gives the same picture.",
+    ),
     flag("check", None, Action::Check, "Read the scene and report what is wrong with it, without rendering."),
-    flag("print-settings", None, Action::PrintSettings, "List each setting, its value, and where the value comes from."),
-    flag("dumpmetadata", Some("PNG"), Action::DumpMetadata, "Print what a picture says about how it was rendered."),
+    flag(
+        "print-settings",
+        None,
+        Action::PrintSettings,
+        "List each setting, its value, and where the value comes from.",
+    ),
+    flag(
+        "dumpmetadata",
+        Some("PNG"),
+        Action::DumpMetadata,
+        "Print what a picture says about how it was rendered.",
+    ),
     flag("json", None, Action::Json, "Report errors and warnings as JSON, a line each."),
     flag("help", None, Action::Help, "Print this help."),
     Flag {
@@ -85,6 +106,7 @@ const NOT_YET: &[&str] = &["h", "n", "p", "r", "ptest", "pack"];
 
 /// The command line, understood.
 #[derive(Debug, Default, PartialEq)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own on the command line")]
 pub struct Arguments {
     /// The scene.
     pub scene: Option<String>,
@@ -119,7 +141,9 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Arguments,
         let argument = argument.into_string().map_err(|a| format!("{} is not Unicode text", a.display()))?;
         let Some(written) = argument.strip_prefix('-').filter(|a| !a.is_empty()) else {
             if let Some(before) = parsed.scene.replace(argument.clone()) {
-                return Err(format!("two scenes are given, {before} and {argument}; one is rendered at a time"));
+                return Err(format!(
+                    "two scenes are given, {before} and {argument}; one is rendered at a time"
+                ));
             }
             continue;
         };
@@ -166,8 +190,9 @@ fn apply(flag: &Flag, value: String, parsed: &mut Arguments) -> Result<(), Strin
             parsed.settings.push(("auto_choose_num_threads", "false".to_owned()));
         }
         Action::Seed => {
-            parsed.seed =
-                value.parse().map_err(|_| format!("-seed needs a whole number from 0 to {}, not {value}", u64::MAX))?;
+            parsed.seed = value
+                .parse()
+                .map_err(|_| format!("-seed needs a whole number from 0 to {}, not {value}", u64::MAX))?;
         }
         Action::Output => parsed.output = Some(value),
         Action::Check => parsed.check = true,
@@ -193,9 +218,10 @@ pub fn help() -> String {
         let alias = flag.alias.map(|a| format!(", -{a}")).unwrap_or_default();
         let left = format!("-{}{alias} {}", flag.name, flag.value.unwrap_or_default());
         let lines = wrap(flag.doc, 72);
-        text.push_str(&format!("  {:<20} {}\n", left.trim_end(), lines[0]));
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "  {:<20} {}", left.trim_end(), lines[0]);
         for line in &lines[1..] {
-            text.push_str(&format!("  {:<20} {line}\n", ""));
+            let _ = writeln!(text, "  {:<20} {line}", "");
         }
     }
     text
@@ -245,7 +271,10 @@ mod tests {
         let error = |words: &[&str]| parsed(words).unwrap_err();
         assert_eq!(error(&["-haltsp", "3"]), "unknown option -haltsp; did you mean -haltspp?");
         assert_eq!(error(&["-halt"]), "-halt needs a value: -halt SECONDS");
-        assert_eq!(error(&["a.igs", "b.igs"]), "two scenes are given, a.igs and b.igs; one is rendered at a time");
+        assert_eq!(
+            error(&["a.igs", "b.igs"]),
+            "two scenes are given, a.igs and b.igs; one is rendered at a time"
+        );
         assert_eq!(error(&["--check=1"]), "-check takes no value");
         assert_eq!(error(&["-n", "m"]), "-n is not in this version yet");
         assert!(error(&["-seed", "-3"]).contains("whole number"));

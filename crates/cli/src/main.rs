@@ -70,15 +70,17 @@ fn run(arguments: &Arguments, console: &mut Console) -> u8 {
         print_settings(&loaded);
         return if loaded.sink.has_errors() { BAD_INPUT } else { RENDERED };
     }
-    let Some(scene_ready) = loaded.scene else {
-        console.say(&format!("{scene}: {}", count(loaded.sink.error_count(), "error")));
-        return BAD_INPUT;
-    };
-    if arguments.check {
-        console.say(&format!("{scene}: no errors"));
-        return RENDERED;
+    match loaded.scene {
+        Some(scene) => render::render(scene, arguments, console),
+        None if loaded.sink.has_errors() => {
+            console.say(&format!("{scene}: {}", count(loaded.sink.error_count(), "error")));
+            BAD_INPUT
+        }
+        None => {
+            console.say(&format!("{scene}: no errors"));
+            RENDERED
+        }
     }
-    render::render(scene_ready, arguments, console)
 }
 
 fn load_scene(path: &str, arguments: &Arguments) -> Loaded {
@@ -91,6 +93,7 @@ fn load_scene(path: &str, arguments: &Arguments) -> Loaded {
         inifile: inifile.as_deref(),
         overrides: &arguments.settings,
         limits: Limits::default(),
+        check_only: arguments.check || arguments.print_settings,
     };
     with_jobs(render::logical_cores(), || load(path, &options))
 }

@@ -33,10 +33,10 @@ pub fn render(scene: Scene, arguments: &Arguments, console: &mut Console) -> u8 
         halt: halt(&scene.output),
         ..Options::default()
     };
-    let png = arguments.output.as_ref().map_or_else(
-        || paths::picture_of(&scene.output.scene_path, SystemTime::now()),
-        PathBuf::from,
-    );
+    let png = arguments
+        .output
+        .as_ref()
+        .map_or_else(|| paths::picture_of(&scene.output.scene_path, SystemTime::now()), PathBuf::from);
     let job = SaveJob {
         scene: Arc::clone(&scene),
         paths: OutputPaths::new(png),
@@ -78,9 +78,11 @@ fn halt(output: &OutputSettings) -> Halt {
 
 /// The first Ctrl-C ends the render in good order, the second one leaves at once.
 fn catch_interrupts(console: &mut Console) {
-    let caught = ctrlc::set_handler(|| {
+    #[expect(clippy::disallowed_methods, reason = "the second Ctrl-C asks for just that")]
+    let leave = || std::process::exit(130);
+    let caught = ctrlc::set_handler(move || {
         if INTERRUPTS.fetch_add(1, Ordering::Relaxed) > 0 {
-            std::process::exit(130);
+            leave();
         }
     });
     if let Err(error) = caught {
@@ -111,7 +113,13 @@ fn follow(mut session: Session, job: &SaveJob, console: &mut Console) -> u8 {
     }
 }
 
-fn finish(session: &Session, reason: &HaltReason, progress: &Progress, mut saver: Saver, console: &mut Console) -> u8 {
+fn finish(
+    session: &Session,
+    reason: &HaltReason,
+    progress: &Progress,
+    mut saver: Saver,
+    console: &mut Console,
+) -> u8 {
     saver.wait_for_last(console);
     console.say(&progress_text(progress));
     if let HaltReason::Failed(message) = reason {

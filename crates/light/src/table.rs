@@ -42,7 +42,11 @@ pub struct LightSample {
 
 impl LightTable {
     /// From the lights, the light that each object is, and the radius in metres of a sphere round the scene.
-    pub fn new(lights: Vec<Light>, object_lights: impl Iterator<Item = Option<u32>>, scene_radius_m: f64) -> Self {
+    pub fn new(
+        lights: Vec<Light>,
+        object_lights: impl Iterator<Item = Option<u32>>,
+        scene_radius_m: f64,
+    ) -> Self {
         let pi = std::f64::consts::PI;
         let power: Vec<f64> = lights
             .iter()
@@ -75,8 +79,7 @@ impl LightTable {
                 let distance2 = d.length2();
                 let wi = d / distance2.sqrt();
                 let cos = -wi.dot(point.n);
-                // The negation also catches a distance of zero.
-                if !(cos > 0.0) {
+                if cos <= 0.0 || distance2 == 0.0 {
                     return None;
                 }
                 let pdf = chance * light.pdf_area() * distance2 / cos;
@@ -105,7 +108,9 @@ impl LightTable {
     #[inline]
     pub fn pdf_object(&self, object: u32, distance2: Real, cos: Real) -> Real {
         match self.area(object) {
-            Some((i, Light::Area(light))) => self.by_power.probability(i) * light.pdf_area() * distance2 / cos,
+            Some((i, Light::Area(light))) => {
+                self.by_power.probability(i) * light.pdf_area() * distance2 / cos
+            }
             _ => 0.0,
         }
     }
@@ -134,6 +139,7 @@ impl LightTable {
     /// Density (1/sr) with which [`sample`](Self::sample) draws a direction of the environment.
     #[inline]
     pub fn pdf_environment(&self, n: Vec3, wi: Vec3) -> Real {
-        self.background.map_or(0.0, |i| self.by_power.probability(i as usize) * cosine_hemisphere_pdf(n.dot(wi)))
+        self.background
+            .map_or(0.0, |i| self.by_power.probability(i as usize) * cosine_hemisphere_pdf(n.dot(wi)))
     }
 }

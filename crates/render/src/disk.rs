@@ -3,8 +3,9 @@
 
 use indigo_decl::{ResolveError, Resolved, Resolver};
 use indigo_geom::TreeStore;
+use std::fmt::Write as _;
 use std::fs::File;
-use std::io::{Read, Write};
+use std::io::{Read, Write as _};
 use std::path::{Path, PathBuf};
 
 /// Finds files beside the file that names them, then in resource directories.
@@ -65,9 +66,9 @@ impl Resolver for DiskResolver {
         let found = candidates.iter().find(|c| c.exists()).cloned();
         match found.or_else(|| candidates.iter().find_map(|c| ignoring_case(c))) {
             Some(path) => self.read_file(&path),
-            None => {
-                Err(ResolveError::NotFound { looked: candidates.iter().map(|c| c.display().to_string()).collect() })
-            }
+            None => Err(ResolveError::NotFound {
+                looked: candidates.iter().map(|c| c.display().to_string()).collect(),
+            }),
         }
     }
 }
@@ -77,7 +78,8 @@ fn ignoring_case(wanted: &Path) -> Option<PathBuf> {
     let mut found = PathBuf::new();
     for part in wanted.components() {
         let exact = found.join(part);
-        if exact.exists() || found.as_os_str().is_empty() && !matches!(part, std::path::Component::Normal(_)) {
+        if exact.exists() || found.as_os_str().is_empty() && !matches!(part, std::path::Component::Normal(_))
+        {
             found = exact;
             continue;
         }
@@ -138,8 +140,12 @@ impl DiskTreeStore {
     }
 
     fn path(&self, key: &[u8; 32]) -> PathBuf {
-        let name: String = key.iter().map(|b| format!("{b:02x}")).collect();
-        self.directory.join(format!("{name}.tree"))
+        let mut name = String::with_capacity(2 * key.len() + 5);
+        for byte in key {
+            // Writing to a string cannot fail.
+            let _ = write!(name, "{byte:02x}");
+        }
+        self.directory.join(name + ".tree")
     }
 }
 

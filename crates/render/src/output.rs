@@ -4,7 +4,9 @@ use crate::Progress;
 use crate::disk::write_atomically;
 use crate::pool::with_jobs;
 use indigo_film::FilmState;
-use indigo_imaging::{ImagingError, LinearImage, Metadata, Picture, RenderFacts, develop_image, exr, png, untonemapped};
+use indigo_imaging::{
+    ImagingError, LinearImage, Metadata, Picture, RenderFacts, develop_image, exr, png, untonemapped,
+};
 use indigo_scene::Scene;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -135,9 +137,8 @@ impl SaveJob {
     pub fn spawn(&self, film: FilmState, progress: Progress) -> Result<Saving, SaveError> {
         let job = self.clone();
         let thread = std::thread::Builder::new().name("save".to_owned());
-        let handle = thread
-            .spawn(move || job.save(&film, &progress))
-            .map_err(|e| SaveError::Thread(e.to_string()))?;
+        let handle =
+            thread.spawn(move || job.save(&film, &progress)).map_err(|e| SaveError::Thread(e.to_string()))?;
         Ok(Saving { handle })
     }
 }
@@ -158,7 +159,9 @@ impl Saving {
     /// # Errors
     /// As [`SaveJob::save`].
     pub fn finish(self) -> Result<Vec<PathBuf>, SaveError> {
-        self.handle.join().unwrap_or_else(|_| Err(SaveError::Thread("the thread that saves failed".to_owned())))
+        self.handle
+            .join()
+            .unwrap_or_else(|_| Err(SaveError::Thread("the thread that saves failed".to_owned())))
     }
 }
 

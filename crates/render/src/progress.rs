@@ -35,7 +35,7 @@ impl RateMeter {
             self.points.pop_front();
         }
         let (first_at, first_count) = self.points[0];
-        let seconds = (at - first_at).as_secs_f64();
+        let seconds = at.saturating_sub(first_at).as_secs_f64();
         if seconds > 0.0 {
             (count - first_count) as f64 / seconds
         } else if at > Duration::ZERO {

@@ -38,6 +38,7 @@ impl Reflectance {
             node.disregard_field(colour);
             return Self::Spectrum(read::reflectance(s, resources.sink()));
         }
+        // tidy: load-time mathematics
         let rgb = node.opt_vec3(colour).map_or([0.0; 3], |v| v.value);
         let linear = rgb.map(|v| v.max(0.0).powf(COLOUR_GAMMA).clamp(0.0, COLOUR_LIMIT));
         Self::Spectrum(Spectrum::rgb_reflectance(linear))

@@ -1,10 +1,10 @@
 //! Loading: read, bind, lower, and gather everything that is wrong.
 
 use crate::lower;
+use crate::scene::Scene;
 use crate::schema::SCENE;
 use crate::schema::settings::RENDERER_SETTINGS;
 use crate::settings::{Origin, Settings};
-use crate::scene::Scene;
 use indigo_decl::{Element, Node, Resolver, bind};
 use indigo_diag::{Sink, SourceMap, Span, Spanned};
 use indigo_geom::TreeStore;
@@ -22,11 +22,13 @@ pub struct LoadOptions<'a> {
     pub overrides: &'a [(&'a str, String)],
     /// Limits on files.
     pub limits: Limits,
+    /// Whether to check only: no trees are built and no scene comes out.
+    pub check_only: bool,
 }
 
 /// A scene as far as it could be loaded.
 pub struct Loaded {
-    /// The scene, if nothing was wrong with it.
+    /// The scene, if nothing was wrong with it and more than checking was asked for.
     pub scene: Option<Scene>,
     /// All settings with their origins.
     pub settings: Option<Settings>,

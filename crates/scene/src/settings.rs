@@ -51,7 +51,8 @@ impl Settings {
     /// From the nodes of the layers that exist; `nowhere` is the place of values that have none.
     pub fn new(layers: Vec<(Origin, Node)>, nowhere: Span) -> Self {
         // Without any child every setting has its default: nothing can be wrong.
-        let defaults = bind(Element::new(RENDERER_SETTINGS.name, nowhere), &RENDERER_SETTINGS, &mut Sink::new());
+        let defaults =
+            bind(Element::new(RENDERER_SETTINGS.name, nowhere), &RENDERER_SETTINGS, &mut Sink::new());
         Self { layers, defaults }
     }
 

@@ -62,7 +62,13 @@ impl Texture {
                 Texels::F32(v)
             }
         };
-        Self { width: image.width, height: image.height, channels: usize::from(image.channels), texels: Arc::new(texels), uv_set }
+        Self {
+            width: image.width,
+            height: image.height,
+            channels: usize::from(image.channels),
+            texels: Arc::new(texels),
+            uv_set,
+        }
     }
 
     /// The same image laid on by another uv set; the texels are shared.
@@ -169,13 +175,11 @@ mod tests {
     #[test]
     fn sixteen_bits_and_floats_agree_with_eight() {
         let as_u16 = Image { pixels: Pixels::U16(vec![0, 100 * 257, 200 * 257, 40 * 257]), ..ramp() };
-        let as_f32 = Image { pixels: Pixels::F32([0.0f32, 100.0, 200.0, 40.0].map(|v| v / 255.0).to_vec()), ..ramp() };
+        let as_f32 =
+            Image { pixels: Pixels::F32([0.0f32, 100.0, 200.0, 40.0].map(|v| v / 255.0).to_vec()), ..ramp() };
         let curve = Curve { exponent: 1.8, a: 0.1, b: 0.7, c: 0.0 };
-        let (t8, t16, tf) = (
-            Texture::new(ramp(), curve, 0),
-            Texture::new(as_u16, curve, 0),
-            Texture::new(as_f32, curve, 0),
-        );
+        let (t8, t16, tf) =
+            (Texture::new(ramp(), curve, 0), Texture::new(as_u16, curve, 0), Texture::new(as_f32, curve, 0));
         for i in 0..100 {
             let uv = Vec2::new(i as Real * 0.137, i as Real * 0.071);
             assert!((t8.scalar(uv) - t16.scalar(uv)).abs() < 1e-5);

@@ -50,7 +50,10 @@ impl SobolSample {
 impl PrimarySample for SobolSample {
     #[inline]
     fn block(&mut self, block: Block) -> [Real; 4] {
-        sobol::block4(rng::mix64(self.key ^ u64::from(block.0).wrapping_mul(0x9E37_79B9_7F4A_7C15)), self.index)
+        sobol::block4(
+            rng::mix64(self.key ^ u64::from(block.0).wrapping_mul(0x9E37_79B9_7F4A_7C15)),
+            self.index,
+        )
     }
 }
 

@@ -62,7 +62,9 @@ fn warn_of_aspect(node: &Node, aspect: f64, film: &FilmSettings, sink: &mut Sink
             Diagnostic::warning(
                 codes::ASPECT_RATIO,
                 node.span_of("aspect_ratio"),
-                format!("<aspect_ratio> is {aspect}, but the picture's is {picture:.4}: it will look stretched"),
+                format!(
+                    "<aspect_ratio> is {aspect}, but the picture's is {picture:.4}: it will look stretched"
+                ),
             )
             .hint(format!("set it to {picture:.6}")),
         );

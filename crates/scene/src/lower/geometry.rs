@@ -28,7 +28,12 @@ impl Geometry {
     }
 
     /// Adds an object given in the world, and returns its number.
-    pub(super) fn add(&mut self, object: Object, slots: impl IntoIterator<Item = u32>, light: Option<u32>) -> u32 {
+    pub(super) fn add(
+        &mut self,
+        object: Object,
+        slots: impl IntoIterator<Item = u32>,
+        light: Option<u32>,
+    ) -> u32 {
         self.objects.push(self.to_render_space(object));
         self.first_slot.push(self.slots.len() as u32);
         self.slots.extend(slots);
@@ -58,7 +63,8 @@ impl Geometry {
             self.add_instance(model, None, meshes, materials, context);
         }
         for sphere in root.nodes("sphere") {
-            let object = Object::Sphere { center: sphere.vec3("center").into(), radius: sphere.real("radius") };
+            let object =
+                Object::Sphere { center: sphere.vec3("center").into(), radius: sphere.real("radius") };
             self.add_shape(sphere, object, materials, context);
         }
         for plane in root.nodes("plane") {
@@ -84,13 +90,23 @@ impl Geometry {
             self.add_shape(plane, object, materials, context);
         } else {
             context.sink.push(
-                Diagnostic::error(codes::SINGULAR, plane.span_of("normal"), "the normal of the plane has no direction")
-                    .expected("expected a vector of length 1"),
+                Diagnostic::error(
+                    codes::SINGULAR,
+                    plane.span_of("normal"),
+                    "the normal of the plane has no direction",
+                )
+                .expected("expected a vector of length 1"),
             );
         }
     }
 
-    fn add_shape(&mut self, node: &Node, object: Object, materials: &mut MaterialTable, context: &mut Context) {
+    fn add_shape(
+        &mut self,
+        node: &Node,
+        object: Object,
+        materials: &mut MaterialTable,
+        context: &mut Context,
+    ) {
         let name = node.text("material_name");
         let material = materials.get(&name.value, name.span, UvSets::Natural, context);
         self.add(object, [material], None);

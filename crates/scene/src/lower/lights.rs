@@ -71,12 +71,21 @@ impl Lights {
             match photometry::with_efficacy(&light.radiance, power, efficacy, light.area()) {
                 Some(scaled) => light.radiance = scaled,
                 None => sink.push(
-                    Diagnostic::error(codes::NO_FLUX, scale.span, "a lamp without luminance or area cannot be scaled to a power")
-                        .expected("expected a spectrum with visible light on a mesh with area"),
+                    Diagnostic::error(
+                        codes::NO_FLUX,
+                        scale.span,
+                        "a lamp without luminance or area cannot be scaled to a power",
+                    )
+                    .expected("expected a spectrum with visible light on a mesh with area"),
                 ),
             }
         }
         self.lights.push(Light::Area(light));
+    }
+
+    /// Whether the scene has no light.
+    pub(super) fn is_empty(&self) -> bool {
+        self.lights.is_empty()
     }
 
     /// The table of all lights.
@@ -93,10 +102,7 @@ fn world_corners(object: &Object, mesh: &TriangleMesh) -> Vec<[Vec3d; 3]> {
     let Object::Mesh { transform, .. } = object else { return vec![] };
     let place = |i: u32| transform.point(Vec3d::from(mesh.positions()[i as usize].map(f64::from)));
     let flip = transform.is_reflection();
-    mesh.triangles()
-        .iter()
-        .map(|&[a, b, c]| if flip { [a, c, b] } else { [a, b, c] }.map(place))
-        .collect()
+    mesh.triangles().iter().map(|&[a, b, c]| if flip { [a, c, b] } else { [a, b, c] }.map(place)).collect()
 }
 
 /// A horizontal rectangle round the origin whose front looks down.

@@ -53,7 +53,10 @@ impl<'a> MaterialTable<'a> {
             return known.unwrap_or_else(|| self.black());
         }
         self.asked_for.insert(name.to_owned());
-        let built = self.names.find(name, span, context.sink).and_then(|node| self.build(name, node, span, uv, context));
+        let built = self
+            .names
+            .find(name, span, context.sink)
+            .and_then(|node| self.build(name, node, span, uv, context));
         built.unwrap_or_else(|| {
             self.plain.insert(name.to_owned(), None);
             self.black()
@@ -71,7 +74,14 @@ impl<'a> MaterialTable<'a> {
         id
     }
 
-    fn build(&mut self, name: &str, node: &Node, user: Span, uv: UvSets, context: &mut Context) -> Option<u32> {
+    fn build(
+        &mut self,
+        name: &str,
+        node: &Node,
+        user: Span,
+        uv: UvSets,
+        context: &mut Context,
+    ) -> Option<u32> {
         let kind = node.alternative()?;
         let mut resources =
             Resources { textures: &mut self.textures, context, uv, user, sets: vec![], uses_textures: false };
@@ -128,8 +138,12 @@ impl MaterialResources for Resources<'_, '_, '_, '_> {
         let set = self.uv_set(node);
         self.sets.push(set);
         let path = node.text("path");
-        let curve =
-            Curve { exponent: node.real("exponent"), a: node.real("a"), b: node.real("b"), c: node.real("c") };
+        let curve = Curve {
+            exponent: node.real("exponent"),
+            a: node.real("a"),
+            b: node.real("b"),
+            c: node.real("c"),
+        };
         let first = self.textures.load(&path.value, path.span, curve, self.context);
         self.textures.on_set(first, set)
     }
@@ -147,11 +161,16 @@ impl Resources<'_, '_, '_, '_> {
             return *set;
         }
         let names: Vec<&str> = sets.iter().map(|(n, _)| n.as_str()).collect();
-        let offers = if names.is_empty() { "no uv set".to_owned() } else { format!("only {}", names.join(", ")) };
+        let offers =
+            if names.is_empty() { "no uv set".to_owned() } else { format!("only {}", names.join(", ")) };
         self.context.sink.push(
-            Diagnostic::error(codes::NO_UV_SET, name.span, format!("a mesh of this material has no uv set {}", name.value))
-                .expected(format!("the mesh exposes {offers}"))
-                .note(format!("the mesh is used at {}", self.context.place(self.user))),
+            Diagnostic::error(
+                codes::NO_UV_SET,
+                name.span,
+                format!("a mesh of this material has no uv set {}", name.value),
+            )
+            .expected(format!("the mesh exposes {offers}"))
+            .note(format!("the mesh is used at {}", self.context.place(self.user))),
         );
         0
     }

@@ -34,7 +34,8 @@ impl<'a> MeshTable<'a> {
     /// The mesh of a name, read if it has not been yet; `None` after reporting why there is none.
     pub(super) fn get(&mut self, name: &str, span: Span, context: &mut Context) -> Option<&Mesh> {
         if !self.read.contains_key(name) {
-            let mesh = self.names.find(name, span, context.sink).and_then(|node| self.read_mesh(node, context));
+            let mesh =
+                self.names.find(name, span, context.sink).and_then(|node| self.read_mesh(node, context));
             self.read.insert(name.to_owned(), mesh);
         }
         self.read.get(name)?.as_ref()
@@ -62,9 +63,11 @@ impl<'a> MeshTable<'a> {
             (data, vec![], path.span)
         };
         report_notes(&data, place, context.sink);
-        let slots = data.material_names.iter().enumerate().map(|(i, name)| {
-            (name.clone(), material_spans.get(i).copied().unwrap_or(place))
-        });
+        let slots = data
+            .material_names
+            .iter()
+            .enumerate()
+            .map(|(i, name)| (name.clone(), material_spans.get(i).copied().unwrap_or(place)));
         let (slots, uv_names) = (slots.collect(), data.uv_names.clone());
         let triangles = to_triangles(data, scale, smooth, place, context.sink)?;
         Some(Mesh { id: self.add(triangles), slots, uv_names })
@@ -87,8 +90,12 @@ fn read_file(path: &str, span: Span, context: &mut Context) -> Option<MeshData> 
         Ok(data) => Some(data),
         Err(error) => {
             context.sink.push(
-                Diagnostic::error(codes::BAD_FILE, span, format!("{}:{}: bad mesh file", file.path, error.position))
-                    .expected(format!("expected {}, found {}", error.expected, error.found)),
+                Diagnostic::error(
+                    codes::BAD_FILE,
+                    span,
+                    format!("{}:{}: bad mesh file", file.path, error.position),
+                )
+                .expected(format!("expected {}, found {}", error.expected, error.found)),
             );
             None
         }
@@ -106,7 +113,13 @@ fn report_notes(data: &MeshData, span: Span, sink: &mut Sink) {
     }
 }
 
-fn to_triangles(data: MeshData, scale: f32, smooth: bool, span: Span, sink: &mut Sink) -> Option<TriangleMesh> {
+fn to_triangles(
+    data: MeshData,
+    scale: f32,
+    smooth: bool,
+    span: Span,
+    sink: &mut Sink,
+) -> Option<TriangleMesh> {
     let mut positions = data.positions;
     if scale != 1.0 {
         positions.iter_mut().flatten().for_each(|x| *x *= scale);

@@ -44,7 +44,11 @@ impl Context<'_> {
         match self.options.resolver.read(path, self.sources.name(span.source)) {
             Ok(found) => Some(found),
             Err(error) => {
-                self.sink.push(Diagnostic::error(codes::MISSING_FILE, span, format!("cannot read {path}: {error}")));
+                self.sink.push(Diagnostic::error(
+                    codes::MISSING_FILE,
+                    span,
+                    format!("cannot read {path}: {error}"),
+                ));
                 None
             }
         }
@@ -92,11 +96,22 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
     let picture = picture::picture(root, camera_node, settings, context.sink);
     let threshold = usize::try_from(settings.int("bih_tri_threshold").value).unwrap_or(usize::MAX);
     let caching = settings.bool("cache_trees");
-    if context.sink.has_errors() {
+    if lights.is_empty() {
+        context.sink.push(
+            Diagnostic::warning(
+                codes::NO_LIGHT,
+                root.span,
+                "the scene has no light: the picture will be black",
+            )
+            .hint("add a <background>, a <meshlight> or a <rectanglelight>"),
+        );
+    }
+    if context.sink.has_errors() || context.options.check_only {
         return None;
     }
     let build_options = BuildOptions { fast_threshold: threshold, ..BuildOptions::default() };
-    let trees: &dyn indigo_geom::TreeStore = if caching { context.options.trees } else { &indigo_geom::NoStore };
+    let trees: &dyn indigo_geom::TreeStore =
+        if caching { context.options.trees } else { &indigo_geom::NoStore };
     let accel = match Accel::build(meshes.into_triangles(), geometry.objects(), &build_options, trees) {
         Ok(accel) => accel,
         Err(error) => {
@@ -106,12 +121,6 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
     };
     let camera = camera::focus(camera?, &accel).into_lens()?;
     let lights = lights.into_table(&geometry, &accel);
-    if lights.lights().is_empty() {
-        context.sink.push(
-            Diagnostic::warning(codes::NO_LIGHT, root.span, "the scene has no light: the picture will be black")
-                .hint("add a <background>, a <meshlight> or a <rectanglelight>"),
-        );
-    }
     let (first_slot, slots) = geometry.into_slots();
     let (materials, textures) = materials.into_arenas();
     Some(Scene {
@@ -135,7 +144,8 @@ fn find_camera<'a>(root: &'a Node, sink: &mut Sink) -> Option<&'a Node> {
     let camera = root.node("camera");
     if camera.is_none() {
         sink.push(
-            Diagnostic::error(codes::NO_CAMERA, root.span, "the scene has no camera").expected("expected a <camera> inside"),
+            Diagnostic::error(codes::NO_CAMERA, root.span, "the scene has no camera")
+                .expected("expected a <camera> inside"),
         );
     }
     camera
@@ -143,7 +153,11 @@ fn find_camera<'a>(root: &'a Node, sink: &mut Sink) -> Option<&'a Node> {
 
 fn transport(settings: &Settings, sink: &mut Sink) -> TransportSettings {
     for field in ["bidirectional", "metropolis"] {
-        settings.refuse_true(field, Some("light is found by path tracing, which converges to the same picture"), sink);
+        settings.refuse_true(
+            field,
+            Some("light is found by path tracing, which converges to the same picture"),
+            sink,
+        );
     }
     settings.refuse_true("hybrid", None, sink);
     for field in ["large_mutation_prob", "max_change", "max_num_consec_rejections"] {

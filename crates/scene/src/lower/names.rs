@@ -35,8 +35,12 @@ impl<'a> Names<'a> {
         if found.is_none() && !name.is_empty() {
             let mut known: Vec<&str> = self.by_name.keys().map(String::as_str).collect();
             known.sort_unstable();
-            let mut d = Diagnostic::error(codes::UNKNOWN_NAME, span, format!("there is no {} named {name}", self.what))
-                .expected(format!("expected the name of a <{}>", self.what));
+            let mut d = Diagnostic::error(
+                codes::UNKNOWN_NAME,
+                span,
+                format!("there is no {} named {name}", self.what),
+            )
+            .expected(format!("expected the name of a <{}>", self.what));
             d.hint = nearest(name, known).map(|n| format!("did you mean {n}?"));
             sink.push(d);
         }

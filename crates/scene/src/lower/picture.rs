@@ -10,7 +10,8 @@ use indigo_imaging::{Exposure, PictureSettings, Region, ToneMapping, WhiteBalanc
 use indigo_spectrum::illuminant;
 
 /// The tone mapping of a scene that has none.
-const DEFAULT_TONE_MAPPING: ToneMapping = ToneMapping::Reinhard { pre_scale: 4.0, post_scale: 1.2, burn: 6.0 };
+const DEFAULT_TONE_MAPPING: ToneMapping =
+    ToneMapping::Reinhard { pre_scale: 4.0, post_scale: 1.2, burn: 6.0 };
 
 /// The film; `None` after reporting an impossible size.
 pub(super) fn film(settings: &Settings, sink: &mut Sink) -> Option<FilmSettings> {
@@ -18,11 +19,16 @@ pub(super) fn film(settings: &Settings, sink: &mut Sink) -> Option<FilmSettings>
     let (width, height) = (dimension("width"), dimension("height"));
     let filter = filter(settings, "splat_filter", Filter::Gaussian, sink);
     let size = FilmSize::new(width, height, dimension("super_sample_factor"))
-        .map_err(|e| sink.push(Diagnostic::error(codes::PICTURE_SIZE, settings.span_of("width"), e.to_string())))
+        .map_err(|e| {
+            sink.push(Diagnostic::error(codes::PICTURE_SIZE, settings.span_of("width"), e.to_string()))
+        })
         .ok()?;
-    let region = region(settings, size, sink).map(|r| [[r.start()[0], r.end()[0]], [r.start()[1], r.end()[1]]]);
+    let region =
+        region(settings, size, sink).map(|r| [[r.start()[0], r.end()[0]], [r.start()[1], r.end()[1]]]);
     let filter = FilmFilter::new(filter, size)
-        .map_err(|e| sink.push(Diagnostic::error(codes::PICTURE_SIZE, settings.span_of("splat_filter"), e.to_string())))
+        .map_err(|e| {
+            sink.push(Diagnostic::error(codes::PICTURE_SIZE, settings.span_of("splat_filter"), e.to_string()))
+        })
         .ok()?;
     Some(FilmSettings { size, filter, region })
 }
@@ -32,10 +38,11 @@ fn region(settings: &Settings, size: FilmSize, sink: &mut Sink) -> Option<Region
     let at = |field: &str| u32::try_from(node.int(field)).unwrap_or(u32::MAX);
     Region::new([at("x1"), at("y1")], [at("x2"), at("y2")], size)
         .map_err(|e| {
-            sink.push(
-                Diagnostic::error(codes::PICTURE_SIZE, node.span, e.to_string())
-                    .expected(format!("expected x1 < x2 <= {} and y1 < y2 <= {}", size.width(), size.height())),
-            );
+            sink.push(Diagnostic::error(codes::PICTURE_SIZE, node.span, e.to_string()).expected(format!(
+                "expected x1 < x2 <= {} and y1 < y2 <= {}",
+                size.width(),
+                size.height()
+            )));
         })
         .ok()
 }
@@ -58,7 +65,12 @@ fn filter(settings: &Settings, field: &str, default: Filter, sink: &mut Sink) ->
 }
 
 /// How the picture is made; `None` after reporting what is wrong.
-pub(super) fn picture(root: &Node, camera: Option<&Node>, settings: &Settings, sink: &mut Sink) -> Option<PictureSettings> {
+pub(super) fn picture(
+    root: &Node,
+    camera: Option<&Node>,
+    settings: &Settings,
+    sink: &mut Sink,
+) -> Option<PictureSettings> {
     let tone_mapping = tone_mapping(root, sink);
     let downsize = filter(settings, "downsize_filter", Filter::MN_DEFAULT, sink);
     let foreground_alpha = settings.bool("render_foreground_alpha");
@@ -90,8 +102,12 @@ pub(super) fn picture(root: &Node, camera: Option<&Node>, settings: &Settings, s
 fn tone_mapping(root: &Node, sink: &mut Sink) -> ToneMapping {
     let Some(node) = root.node("tonemapping") else {
         sink.push(
-            Diagnostic::warning(codes::NO_TONEMAPPING, root.span, "the scene has no <tonemapping>: reinhard 4, 1.2, 6 is used")
-                .hint("add <tonemapping><reinhard>...</reinhard></tonemapping>"),
+            Diagnostic::warning(
+                codes::NO_TONEMAPPING,
+                root.span,
+                "the scene has no <tonemapping>: reinhard 4, 1.2, 6 is used",
+            )
+            .hint("add <tonemapping><reinhard>...</reinhard></tonemapping>"),
         );
         return DEFAULT_TONE_MAPPING;
     };

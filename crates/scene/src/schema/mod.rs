@@ -84,6 +84,6 @@ pub fn reference() -> String {
 
 /// The list of diagnostics with their codes, as Markdown.
 pub fn errors() -> String {
-    let codes = [indigo_igs::codes::ALL, indigo_decl::codes::ALL];
+    let codes = [indigo_igs::codes::ALL, indigo_decl::codes::ALL, crate::codes::ALL];
     format!("{}{}", include_str!("errors.md"), indigo_decl::reference::codes(&codes))
 }

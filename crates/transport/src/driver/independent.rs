@@ -6,7 +6,7 @@
 use crate::sampler::{Block, PrimarySample, SobolSample};
 use crate::technique::path;
 use indigo_film::{FilmDelta, FilmFilter, FilmSize, Sensor};
-use indigo_math::{Vec2, rng};
+use indigo_math::{Float, Real, Vec2, rng};
 use indigo_scene::Scene;
 use indigo_spectrum::SampledWavelengths;
 
@@ -75,13 +75,13 @@ impl Independent {
         let on_film = self.filter.sample(x, y, [u0, u1]);
         let [l0, l1, _, _] = sample.block(Block::LENS);
         let position = Vec2::new(
-            on_film.position.x / self.size.internal_width() as indigo_math::Real,
-            on_film.position.y / self.size.internal_height() as indigo_math::Real,
+            on_film.position.x / self.size.internal_width() as Real,
+            on_film.position.y / self.size.internal_height() as Real,
         );
         let ray = scene.camera.ray(position, Vec2::new(l0, l1));
         let found = path::trace(scene, &mut sample, &lambda, &ray, scene.transport.max_depth);
         let xyz = Sensor::new(&lambda).xyz(&(found.radiance * on_film.weight));
-        delta.add_sample(CAMERA_LAYER, x, y, xyz, (found.alpha * on_film.weight) as f32);
+        delta.add_sample(CAMERA_LAYER, x, y, xyz, (found.alpha * on_film.weight).to_f64() as f32);
     }
 
     /// The internal pixel that sample number `pass` of an output pixel goes to: each in turn, the

@@ -74,12 +74,7 @@ fn power_heuristic(a: Real, b: Real) -> Real {
 
 impl Path {
     fn new() -> Self {
-        Self {
-            beta: SampledSpectrum::ONE,
-            ratio: LanePdf::ONE,
-            radiance: SampledSpectrum::ZERO,
-            last: None,
-        }
+        Self { beta: SampledSpectrum::ONE, ratio: LanePdf::ONE, radiance: SampledSpectrum::ZERO, last: None }
     }
 
     /// Adds light that the ray itself met, which light sampling would draw with `pdf_light` (1/sr).
@@ -104,7 +99,7 @@ impl Path {
         if u >= chance {
             return false;
         }
-        self.beta = self.beta * (1.0 / chance);
+        self.beta *= 1.0 / chance;
         true
     }
 }
@@ -136,7 +131,7 @@ pub fn trace(
         let context = MaterialContext { textures: &scene.textures, lambda };
         let Some(leaf) = scene.material_at(&at).leaf(&context, |set| scene.accel.uv(&at, set)) else {
             // Not a scattering event: the path goes on as if nothing were here.
-            ray = continue_beyond(scene, &ray, &at);
+            ray = continue_beyond(scene, &ray, &hit, &at);
             continue;
         };
         alpha = 1.0;
@@ -157,8 +152,8 @@ pub fn trace(
             pdf: path.ratio * next.pdf,
             prefix: path.ratio.mean(),
         });
-        path.beta = path.beta * next.weight;
-        path.ratio = path.ratio * next.pdf.ratio_to_hero();
+        path.beta *= next.weight;
+        path.ratio *= next.pdf.ratio_to_hero();
         if path.beta.is_black() {
             break;
         }

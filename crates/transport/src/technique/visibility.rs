@@ -1,8 +1,8 @@
 //! Rays between vertices: leaving a surface, passing through what is invisible.
 
-use indigo_geom::{Ray, SurfacePoint, offset_origin};
+use indigo_geom::{Hit, Ray, SurfacePoint, offset_origin};
 use indigo_light::LightSample;
-use indigo_math::{Real, Vec3};
+use indigo_math::Vec3;
 use indigo_scene::Scene;
 
 /// A ray from a surface in a direction, clear of the surface's own error.
@@ -41,16 +41,18 @@ fn is_blocked(scene: &Scene, ray: &Ray) -> bool {
         if !scene.material_at(&at).is_invisible() {
             return true;
         }
-        ray = continue_beyond(scene, &ray, &at);
+        ray = continue_beyond(scene, &ray, &hit, &at);
     }
     false
 }
 
-/// The rest of a ray behind a surface that it passes through. The parameter keeps its meaning as a
-/// multiple of the direction; the far end stays where it was.
+/// The rest of a ray behind a surface that it passes through.
+///
+/// Origin and far end stay where they are and the ray on its line: an offset along the normal would
+/// shift it a little at every surface, and many of them would bend the way to a light.
 #[inline]
-pub fn continue_beyond(scene: &Scene, ray: &Ray, at: &SurfacePoint) -> Ray {
-    let origin = offset_origin(at.p, at.p_error, at.n_g, ray.d, scene.nudge_m);
-    let travelled: Real = (origin - ray.o).dot(ray.d) / ray.d.length2();
-    Ray { o: origin, d: ray.d, t_min: 0.0, t_max: ray.t_max - travelled }
+pub fn continue_beyond(scene: &Scene, ray: &Ray, hit: &Hit, at: &SurfacePoint) -> Ray {
+    let step = at.p_error.length().max(scene.nudge_m) / ray.d.length();
+    // However short the step, `t` moves on, so that this ends.
+    Ray { t_min: (hit.t + step).max(hit.t.next_up()), ..*ray }
 }
