@@ -1,0 +1,125 @@
+//! Scenes from text in memory, rendered in small independent batches, and judged.
+#![allow(dead_code, reason = "every test program uses its own part")]
+
+pub mod judge;
+pub mod shapes;
+pub mod text;
+
+use indigo_decl::{ResolveError, Resolved, Resolver};
+use indigo_diag::{Style, to_text};
+use indigo_film::{FilmState, LayerKind};
+use indigo_geom::NoStore;
+use indigo_igs::Limits;
+use indigo_scene::{LoadOptions, Scene, load};
+use indigo_testkit::stats::Moments;
+use indigo_transport::driver::Independent;
+use std::collections::HashMap;
+
+/// Files by name.
+#[derive(Default)]
+pub struct Files(pub HashMap<String, Vec<u8>>);
+
+impl Resolver for Files {
+    fn read(&self, path: &str, _from: &str) -> Result<Resolved, ResolveError> {
+        match self.0.get(path) {
+            Some(bytes) => Ok(Resolved { path: path.to_owned(), bytes: bytes.clone().into() }),
+            None => Err(ResolveError::NotFound { looked: vec![path.to_owned()] }),
+        }
+    }
+}
+
+/// The scene of a text; every complaint but a warning ends the test with its message.
+pub fn scene(text: &str) -> Scene {
+    scene_with(text, [])
+}
+
+/// The scene of a text that names other files.
+pub fn scene_with<const N: usize>(text: &str, files: [(&str, Vec<u8>); N]) -> Scene {
+    let mut files: HashMap<String, Vec<u8>> = files.into_iter().map(|(n, b)| (n.to_owned(), b)).collect();
+    files.insert("test.igs".to_owned(), text.as_bytes().to_vec());
+    let options = LoadOptions {
+        resolver: &Files(files),
+        trees: &NoStore,
+        inifile: None,
+        overrides: &[],
+        limits: Limits::default(),
+        check_only: false,
+    };
+    let loaded = load("test.igs", &options);
+    let complaints = || loaded.sink.diagnostics().iter().map(|d| to_text(d, &loaded.sources, Style::Plain));
+    loaded.scene.unwrap_or_else(|| panic!("the scene has errors:\n{}", complaints().collect::<String>()))
+}
+
+/// A film with `passes` samples for each output pixel.
+pub fn film(scene: &Scene, seed: u64, passes: u64) -> FilmState {
+    let driver = Independent::new(scene, seed);
+    let mut film = FilmState::new(scene.film.size, &[(LayerKind::PerPixel, "camera")]);
+    let mut delta = film.delta();
+    for unit in 0..passes * driver.units_per_pass() {
+        driver.render_unit(scene, unit, &mut delta);
+        // Often enough that single precision loses nothing that these tests could see.
+        if unit % 64 == 63 {
+            film.merge(&delta).expect("made by this film");
+            delta.clear();
+        }
+    }
+    film.merge(&delta).expect("made by this film");
+    assert_eq!(film.refused, 0, "contributions that are not finite");
+    film
+}
+
+/// First and last (excluded) internal column and row.
+pub type Region = [[usize; 2]; 2];
+
+/// Mean X, Y, Z and alpha over a region of internal pixels.
+pub fn mean(film: &FilmState, region: Region) -> [f64; 4] {
+    let (layer, width) = (&film.layers[0], film.size.internal_width() as usize);
+    let pixels =
+        (region[1][0]..region[1][1]).flat_map(|y| (region[0][0]..region[0][1]).map(move |x| y * width + x));
+    let (mut sum, mut count) = ([0.0; 4], 0.0);
+    for i in pixels {
+        count += layer.counts[i];
+        for (s, v) in sum.iter_mut().zip(layer.sums[i]) {
+            *s += v;
+        }
+    }
+    sum.map(|s| s / count)
+}
+
+/// The whole of a scene's film.
+pub fn whole(scene: &Scene) -> Region {
+    [[0, scene.film.size.internal_width() as usize], [0, scene.film.size.internal_height() as usize]]
+}
+
+/// Means over a region in independent renders of different seeds.
+pub struct Measured {
+    /// X, Y, Z in cd/m² and alpha.
+    pub xyza: [Moments; 4],
+}
+
+impl Measured {
+    /// Luminance in cd/m².
+    pub fn luminance(&self) -> &Moments {
+        &self.xyza[1]
+    }
+}
+
+/// Renders `batches` times with `passes` samples per output pixel each, and measures the regions.
+pub fn measure_regions(scene: &Scene, regions: &[Region], batches: u64, passes: u64) -> Vec<Measured> {
+    let mut measured: Vec<Measured> =
+        regions.iter().map(|_| Measured { xyza: [Moments::default(); 4] }).collect();
+    for seed in 0..batches {
+        let film = film(scene, 1000 + seed, passes);
+        for (m, &region) in measured.iter_mut().zip(regions) {
+            for (moments, value) in m.xyza.iter_mut().zip(mean(&film, region)) {
+                moments.add(value);
+            }
+        }
+    }
+    measured
+}
+
+/// [`measure_regions`] of the whole picture.
+pub fn measure(scene: &Scene, batches: u64, passes: u64) -> Measured {
+    measure_regions(scene, &[whole(scene)], batches, passes).remove(0)
+}

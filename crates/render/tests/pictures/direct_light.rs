@@ -1,0 +1,144 @@
+//! Direct light against closed forms: luminance of the lamp, and of a diffuse floor under it.
+
+use super::common::judge::{NITS_PER_UNIFORM, assert_is};
+use super::common::shapes::{Mesh, Point, disc_irradiance, mesh_light, model, rotation, sub};
+use super::common::text::{flat_camera, grey, scene_file, settings, uniform};
+use super::common::{measure, scene};
+use std::f64::consts::PI;
+
+/// Albedo of the floor.
+const ALBEDO: f64 = 0.5;
+/// How exactly the luminances must come out.
+const TOLERANCE: f64 = 2e-3;
+/// Half the width of the patch that is looked at is this fraction of its distance: the irradiance's
+/// curvature over it is then far below the tolerance.
+const NARROW: f64 = 2e-3;
+
+/// The lamp of the manual's example: 100 W at 17.5 lm/W.
+fn manual_lamp() -> String {
+    "<rectanglelight><pos>0 0 1.9</pos><width>0.2</width><height>0.2</height><spectrum><peak><peak_min>300</peak_min>\
+     <peak_width>550</peak_width><base_value>0</base_value><peak_value>200</peak_value></peak></spectrum>\
+     <efficacy_scale><power_drawn>100</power_drawn><overall_luminous_efficacy>17.5</overall_luminous_efficacy>\
+     </efficacy_scale></rectanglelight>"
+        .to_owned()
+}
+
+/// A scene of lamps over a floor, looked at from `eye` towards `target`.
+fn over_floor(lamps: &str, eye: Point, target: Point) -> String {
+    scene_file([
+        settings(8, ""),
+        flat_camera(eye, sub(target, eye), NARROW),
+        grey("floor", ALBEDO),
+        Mesh::square(20.0, 0.0).text("ground", "floor"),
+        model("ground"),
+        lamps.to_owned(),
+    ])
+}
+
+/// Says that the floor at `target` has the luminance of an illuminance in lx, as 16 renders of some
+/// passes tell.
+#[track_caller]
+fn assert_lit(what: &str, lamps: &str, target: Point, illuminance: f64, passes: u64) {
+    let eye = [target[0] + 3.0, target[1] + 1.0, target[2] + 1.2];
+    let measured = measure(&scene(&over_floor(lamps, eye, target)), 16, passes);
+    assert_is(what, measured.luminance(), ALBEDO * illuminance / PI, TOLERANCE);
+}
+
+#[test]
+fn the_closed_forms_agree_with_each_other() {
+    let up = [0.0, 0.0, 1.0];
+    let disc = Mesh::disc(0.3, 2000).placed(IDENTITY, 1.0, [0.0, 0.0, 1.1]);
+    assert!((disc.irradiance([0.0; 3], up) / disc_irradiance(0.3, 1.1) - 1.0).abs() < 1e-5);
+    // The manual's lamp: 13926.0575 cd/m² give 153.7376 lx below it and 63.9058 lx at (1, 1).
+    let lamp = Mesh::square(0.1, 1.9).inside_out();
+    assert!((lamp.irradiance([0.0; 3], up) * 13_926.057_5 - 153.737_6).abs() < 1e-3);
+    assert!((lamp.irradiance([1.0, 1.0, 0.0], up) * 13_926.057_5 - 63.905_8).abs() < 1e-3);
+    // A far ball: π (R/d)² cos θ.
+    let ball = Mesh::ball(5).placed(IDENTITY, 0.1, [3.0, 0.0, 4.0]);
+    assert!((ball.irradiance([0.0; 3], up) / (PI * 0.01 / 25.0 * 0.8) - 1.0).abs() < 2e-3);
+}
+
+const IDENTITY: [f64; 9] = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+
+#[test]
+fn the_manuals_lamp_has_the_luminance_of_its_power() {
+    let text = scene_file([settings(8, ""), flat_camera([0.0; 3], [0.0, 0.0, 1.0], 0.02), manual_lamp()]);
+    assert_is("lamp", measure(&scene(&text), 16, 64).luminance(), 13_926.057_5, 1e-3);
+}
+
+#[test]
+fn the_manuals_lamp_lights_the_floor_by_the_closed_form() {
+    assert_lit("below", &manual_lamp(), [0.0; 3], 153.737_6, 96);
+    assert_lit("at (1, 1)", &manual_lamp(), [1.0, 1.0, 0.0], 63.905_8, 96);
+}
+
+#[test]
+fn a_rectangle_is_black_from_behind_and_does_not_light_upwards() {
+    let seen =
+        scene_file([settings(4, ""), flat_camera([0.0, 0.0, 3.0], [0.0, 0.0, -1.0], 0.02), manual_lamp()]);
+    assert_eq!(measure(&scene(&seen), 2, 16).luminance().mean(), 0.0);
+    let sunk = manual_lamp().replace("0 0 1.9", "0 0 -1.9");
+    for eye in [[3.0, 1.0, 1.2], [3.0, 1.0, -1.2]] {
+        let floor_above_it = over_floor(&sunk, eye, [0.0; 3]);
+        assert_eq!(measure(&scene(&floor_above_it), 2, 16).luminance().mean(), 0.0);
+    }
+}
+
+/// A quarter of a turn about x, then a fifth about z: no axis stays where it was.
+fn turned() -> [f64; 9] {
+    let (s, c) = 0.6f64.sin_cos();
+    let (t, d) = 0.9f64.sin_cos();
+    [d, -t * c, t * s, t, d * c, -d * s, 0.0, s, c]
+}
+
+#[test]
+fn a_mesh_light_lights_the_floor_however_it_is_placed() {
+    let radiance = 5.0e7;
+    let disc = Mesh::disc(0.4, 24);
+    let mirrored = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, -1.0];
+    let cases = [
+        ("disc", disc.clone(), IDENTITY, 1.0, 96),
+        ("disc turned and shrunk", disc.clone(), turned(), 0.5, 96),
+        ("disc mirrored in x", disc.clone(), [-1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0], 1.3, 96),
+        ("disc facing up, mirrored in z", disc.inside_out(), mirrored, 0.7, 96),
+        ("ball sheared", Mesh::ball(2), [1.0, 0.4, 0.0, 0.0, 0.7, 0.2, 0.0, 0.0, 1.2], 0.3, 1024),
+    ];
+    for (what, mesh, m, scale, passes) in cases {
+        let pos = [0.3, -0.2, 1.5];
+        // A point of the mesh's outside stays outside under a reflection.
+        let irradiance = mesh.placed(m, scale, pos).irradiance([0.0; 3], [0.0, 0.0, 1.0]);
+        assert!(irradiance > 1e-3, "{what} does not light the floor");
+        let lamps = [
+            grey("lamp", 0.0),
+            mesh.text("shade", "lamp"),
+            mesh_light("shade", &uniform(radiance), pos, scale, &rotation(m)),
+        ];
+        assert_lit(what, &lamps.concat(), [0.0; 3], irradiance * radiance * NITS_PER_UNIFORM, passes);
+    }
+}
+
+#[test]
+fn efficacy_scale_gives_a_mesh_light_its_flux_at_any_size() {
+    let efficacy = "<efficacy_scale><power_drawn>60</power_drawn><overall_luminous_efficacy>15</overall_luminous_efficacy></efficacy_scale>";
+    let mesh = Mesh::ball(2);
+    for (scale, gain) in [(0.05, 1.0), (0.4, 7e5)] {
+        let lamps = [
+            grey("lamp", 0.3),
+            mesh.text("bulb", "lamp"),
+            mesh_light("bulb", &uniform(gain), [0.0, 3.0, 0.0], scale, efficacy),
+        ];
+        let text = scene_file([
+            settings(8, ""),
+            flat_camera([0.0; 3], [0.0, 1.0, 0.0], 0.1 * scale),
+            lamps.concat(),
+        ]);
+        let luminance = 60.0 * 15.0 / (PI * mesh.placed(IDENTITY, scale, [0.0; 3]).area());
+        assert_is("bulb", measure(&scene(&text), 16, 64).luminance(), luminance, 1e-3);
+    }
+}
+
+#[test]
+fn two_lamps_add_up() {
+    let second = manual_lamp().replace("0 0 1.9", "1 1 1.9");
+    assert_lit("two lamps", &(manual_lamp() + &second), [1.0, 1.0, 0.0], 153.737_6 + 63.905_8, 96);
+}
