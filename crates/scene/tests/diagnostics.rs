@@ -41,7 +41,7 @@ fn messages_are_as_expected() {
     let mut names: Vec<String> = std::fs::read_dir(folder())
         .expect("the folder of fixtures")
         .map(|entry| entry.expect("an entry").file_name().into_string().expect("a plain name"))
-        .filter(|name| name.ends_with(".igs"))
+        .filter(|name| Path::new(name).extension().is_some_and(|e| e == "igs"))
         .collect();
     names.sort();
     assert!(names.len() >= 30, "{} fixtures", names.len());

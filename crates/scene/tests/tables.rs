@@ -216,10 +216,14 @@ fn examples_of_codes_have_the_fault_they_show() {
 
 #[test]
 fn codes_are_distinct() {
-    let all: Vec<&str> =
-        indigo_igs::codes::ALL.iter().chain(indigo_decl::codes::ALL).map(|c| c.code).collect();
+    let lists = [indigo_igs::codes::ALL, indigo_decl::codes::ALL, indigo_scene::codes::ALL];
+    let all: Vec<&str> = lists.concat().iter().map(|c| c.code).collect();
     let distinct: BTreeSet<&str> = all.iter().copied().collect();
     assert_eq!(all.len(), distinct.len());
+    let errors = schema::errors();
+    for code in all {
+        assert!(errors.contains(&format!("| {code} |")), "{code}");
+    }
 }
 
 #[test]
@@ -233,7 +237,14 @@ fn the_reference_names_every_element_once() {
         let heading = format!("## {}", link.replace("-in-", " in "));
         assert!(distinct.contains(&*heading), "no section {heading}");
     }
-    for code in indigo_igs::codes::ALL.iter().chain(indigo_decl::codes::ALL) {
-        assert!(schema::errors().contains(code.code));
+}
+
+#[test]
+fn the_manual_is_up_to_date() {
+    let pages = [("scene-format.md", schema::reference()), ("errors.md", schema::errors())];
+    for (name, text) in pages {
+        let path = format!("{}/../../docs/manual/{name}", env!("CARGO_MANIFEST_DIR"));
+        let written = std::fs::read_to_string(path).expect(name).replace('\r', "");
+        assert!(written == text, "docs/manual/{name} is stale: run `cargo xtask gen`");
     }
 }
