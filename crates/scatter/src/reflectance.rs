@@ -16,8 +16,8 @@ const COLOUR_LIMIT: f64 = 0.9;
 pub enum Reflectance {
     /// The same all over the surface.
     Spectrum(Spectrum),
-    /// From an image map: its linear RGB, clamped to [0, 1], upsampled.
-    Texture(TextureId),
+    /// From an image map: its linear RGB, clamped to [0, 1], upsampled by a table.
+    Texture(TextureId, &'static RgbTable),
 }
 
 impl Reflectance {
@@ -32,7 +32,7 @@ impl Reflectance {
         if let Some(id) = map {
             node.disregard_field(spectrum);
             node.disregard_field(colour);
-            return Self::Texture(id);
+            return Self::Texture(id, RgbTable::get());
         }
         if let Some(s) = node.node(spectrum) {
             node.disregard_field(colour);
@@ -49,9 +49,9 @@ impl Reflectance {
     pub fn eval(&self, context: &MaterialContext, uv: impl Fn(u32) -> Vec2) -> SampledSpectrum {
         match self {
             Self::Spectrum(s) => s.eval(context.lambda),
-            Self::Texture(id) => {
+            Self::Texture(id, table) => {
                 let texture = &context.textures[*id as usize];
-                RgbTable::get().lookup(texture.rgb(uv(texture.uv_set))).eval(context.lambda)
+                table.lookup(texture.rgb(uv(texture.uv_set))).eval(context.lambda)
             }
         }
     }

@@ -96,7 +96,7 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
     let picture = picture::picture(root, camera_node, settings, context.sink);
     let threshold = usize::try_from(settings.int("bih_tri_threshold").value).unwrap_or(usize::MAX);
     let caching = settings.bool("cache_trees");
-    if lights.is_empty() {
+    if lights.is_empty() && !context.sink.has_errors() {
         context.sink.push(
             Diagnostic::warning(
                 codes::NO_LIGHT,
