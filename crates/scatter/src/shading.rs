@@ -95,14 +95,15 @@ impl ShadingPoint {
         Some(Scattered { wi, weight, pdf: s.pdf, pdf_rev: self.leaf.pdf(s.wi, o) })
     }
 
-    /// The cosine that belongs to `f` in this mode, with the adjoint of the shading normal.
+    /// The cosine that belongs to `f` in this mode, with the adjoint of the shading normal: 0 where the
+    /// light's direction, `wi` or `wo` by mode, lies below the horizon of the shading normal.
     #[inline]
     fn cosine(&self, o: Vec3, i: Vec3, wi: Vec3, mode: Mode) -> Real {
         match mode {
-            Mode::Radiance => i.z.abs(),
+            Mode::Radiance => i.z.max(0.0),
             Mode::Importance => {
                 let geometric = self.wo.dot(self.n_g).abs();
-                if geometric == 0.0 { 0.0 } else { o.z.abs() * wi.dot(self.n_g).abs() / geometric }
+                if geometric == 0.0 { 0.0 } else { o.z.max(0.0) * wi.dot(self.n_g).abs() / geometric }
             }
         }
     }

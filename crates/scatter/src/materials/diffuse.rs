@@ -61,10 +61,11 @@ impl Diffuse {
     }
 }
 
-/// Constant BSDF on the side of `wo`.
+/// Constant BSDF, for directions on one side of the surface.
 ///
 /// A shading normal may lean so far that `wo` lies below its horizon though it is in front of the
-/// surface: the model does not look at `wo`, so such places are not dark.
+/// surface. The model does not look at the directions at all, so such places are not dark, and it
+/// stays symmetric: `ShadingPoint` keeps to one side of the surface, and its cosine ends the light.
 #[derive(Clone, Copy, Debug)]
 pub struct DiffuseLeaf {
     /// Albedo / π.
@@ -73,8 +74,8 @@ pub struct DiffuseLeaf {
 
 impl Scatter for DiffuseLeaf {
     #[inline]
-    fn f(&self, _wo: Vec3, wi: Vec3) -> SampledSpectrum {
-        if wi.z > 0.0 { self.f } else { SampledSpectrum::ZERO }
+    fn f(&self, _wo: Vec3, _wi: Vec3) -> SampledSpectrum {
+        self.f
     }
 
     #[inline]
