@@ -1,0 +1,157 @@
+//! Counting, halting, pausing and failing.
+
+use super::common::scene_with;
+use super::common::text::{background, flat_camera, scene_file, settings, uniform};
+use super::{PATIENCE, finish, options, run, small_scene};
+use indigo_imaging::{LinearImage, Metadata, exr};
+use indigo_render::{Event, Halt, HaltReason, Options, Session};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+const ENDLESS: Halt = Halt { time: None, samples_per_pixel: None };
+
+#[test]
+fn every_pixel_gets_exactly_the_samples_that_were_asked_for() {
+    for (threads, super_sample, spp, deterministic) in
+        [(1, 1, 5, false), (3, 1, 7, false), (2, 2, 8, true), (2, 3, 4, false)]
+    {
+        let scene = small_scene(super_sample, "");
+        let (film, reason, progress) = run(&scene, &Options { deterministic, ..options(threads, spp) });
+        assert_eq!(reason, HaltReason::Samples);
+        assert_eq!(progress.samples, 48 * 48 * spp);
+        assert_eq!(progress.fraction, Some(1.0));
+        assert!((film.samples_per_pixel() - spp as f64).abs() < 1e-12);
+        // Each output pixel's block of internal ones holds its samples.
+        let (side, width) = (super_sample as usize, film.size.internal_width() as usize);
+        for y in 0..48 {
+            for x in 0..48 {
+                let block = (0..side * side).map(|i| (y * side + i / side) * width + x * side + i % side);
+                assert_eq!(
+                    block.map(|i| film.layers[0].counts[i]).sum::<f64>(),
+                    spp as f64,
+                    "pixel {x}, {y}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn time_halts_and_stop_stops() {
+    let scene = small_scene(1, "");
+    let halt = Halt { time: Some(Duration::from_millis(100)), samples_per_pixel: None };
+    let (film, reason, progress) = run(&scene, &Options { halt, deterministic: false, ..options(2, 0) });
+    assert_eq!(reason, HaltReason::Time);
+    assert!(progress.elapsed >= Duration::from_millis(100));
+    // What was counted is on the film.
+    assert_eq!(film.layers[0].totals.n_samples, progress.samples as f64);
+
+    for deterministic in [false, true] {
+        let mut session =
+            Session::start(Arc::clone(&scene), &Options { halt: ENDLESS, deterministic, ..options(2, 0) })
+                .expect("threads");
+        assert!(matches!(session.wait(Duration::from_millis(50)), Event::Progress(_)));
+        session.stop();
+        let (reason, progress) = finish(&mut session);
+        assert_eq!(reason, HaltReason::Stopped);
+        assert_eq!(session.snapshot().layers[0].totals.n_samples, progress.samples as f64);
+    }
+}
+
+/// Waits until the counter stands still, and returns it.
+fn settled(session: &mut Session) -> u64 {
+    let deadline = Instant::now() + PATIENCE;
+    let mut last = session.progress().samples;
+    let mut since = Instant::now();
+    while since.elapsed() < Duration::from_millis(300) {
+        assert!(Instant::now() < deadline, "still rendering while paused");
+        assert!(matches!(session.wait(Duration::from_millis(20)), Event::Progress(_)));
+        let now = session.progress().samples;
+        if now != last {
+            (last, since) = (now, Instant::now());
+        }
+    }
+    last
+}
+
+#[test]
+fn a_pause_rests_the_workers_and_the_clock_and_loses_nothing() {
+    let scene = small_scene(1, "");
+    for deterministic in [false, true] {
+        let mut session =
+            Session::start(Arc::clone(&scene), &Options { halt: ENDLESS, deterministic, ..options(2, 0) })
+                .expect("threads");
+        session.wait(Duration::from_millis(50));
+        session.pause();
+        let samples = settled(&mut session);
+        let clock = session.elapsed();
+        assert_eq!(
+            session.snapshot().layers[0].totals.n_samples,
+            samples as f64,
+            "all handed over in a pause"
+        );
+        std::thread::sleep(Duration::from_millis(300));
+        assert!(session.elapsed() - clock < Duration::from_millis(150), "the clock runs on in a pause");
+        session.resume();
+        let deadline = Instant::now() + PATIENCE;
+        while session.progress().samples == samples {
+            assert!(Instant::now() < deadline, "nothing goes on after the pause");
+            session.wait(Duration::from_millis(20));
+        }
+        session.pause();
+        settled(&mut session);
+        // A paused session can be stopped.
+        session.stop();
+        assert_eq!(finish(&mut session).0, HaltReason::Stopped);
+    }
+}
+
+#[test]
+fn a_pause_does_not_change_the_film() {
+    let scene = small_scene(1, "");
+    let (straight, ..) = run(&scene, &options(2, 40));
+    let mut session = Session::start(Arc::clone(&scene), &options(2, 40)).expect("threads");
+    session.pause();
+    settled(&mut session);
+    session.resume();
+    assert_eq!(finish(&mut session).0, HaltReason::Samples);
+    assert!(session.snapshot() == straight);
+}
+
+#[test]
+fn dropping_a_session_ends_its_threads() {
+    let scene = small_scene(1, "");
+    for paused in [false, true] {
+        let mut session =
+            Session::start(Arc::clone(&scene), &Options { halt: ENDLESS, ..options(2, 0) }).expect("threads");
+        if paused {
+            session.pause();
+        }
+        drop(session);
+    }
+    assert_eq!(Arc::strong_count(&scene), 1, "a thread still holds the scene");
+}
+
+/// A bug in the kernel, here a texture that is gone, ends the session with a message that says how to
+/// see it again.
+#[test]
+fn a_worker_that_fails_is_reported() {
+    let texel = LinearImage { width: 1, height: 1, pixels: vec![[0.5; 4]] };
+    let texture = exr::encode(&texel, &Metadata::default()).expect("a picture");
+    let text = scene_file([
+        settings(48, ""),
+        flat_camera([0.0; 3], [0.0, 1.0, 0.0], 0.5),
+        "<material><name>m</name><diffuse><albedo_texture><path>t.exr</path></albedo_texture></diffuse></material>"
+            .to_owned(),
+        "<sphere><center>0 4 0</center><radius>1</radius><material_name>m</material_name></sphere>".to_owned(),
+        background(&uniform(1e4)),
+    ]);
+    for deterministic in [false, true] {
+        let mut broken = scene_with(&text, [("t.exr", texture.clone())]);
+        broken.textures.clear();
+        let (_, reason, _) =
+            run(&Arc::new(broken), &Options { halt: ENDLESS, deterministic, ..options(3, 0) });
+        let HaltReason::Failed(message) = reason else { panic!("{reason:?}") };
+        assert!(message.contains("seed 11") && message.contains("unit"), "{message}");
+    }
+}
