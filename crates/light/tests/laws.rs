@@ -1,0 +1,222 @@
+//! Drawing light from the table of lights, and the densities of having done so.
+//!
+//! Statistical tests share a false-alarm probability of 1e-4; seeds are fixed.
+
+use indigo_light::{AreaLight, Light, LightSample, LightTable};
+use indigo_math::{Real, Vec3, Vec3d};
+use indigo_spectrum::{SampledWavelengths, Spectrum};
+use indigo_testkit::chi2::{Chi2, Domain};
+use indigo_testkit::quadrature::{hemisphere, sphere};
+use indigo_testkit::rng::Rng;
+use indigo_testkit::stats::Moments;
+use indigo_testkit::ztest::{MeanTest, welch};
+
+/// Where light is gathered: the origin of a surface that faces up.
+const P: Vec3 = Vec3 { x: 0.0, y: 0.0, z: 0.0 };
+const N: Vec3 = Vec3 { x: 0.0, y: 0.0, z: 1.0 };
+
+/// An emitter that the tests know by heart: a square of some half side in the plane through `at`
+/// across `-at`, showing its front to the origin.
+struct Square {
+    at: Vec3d,
+    half: f64,
+    radiance: f64,
+    /// Unit axes in its plane, and its normal towards the origin.
+    axes: [Vec3d; 3],
+}
+
+impl Square {
+    fn new(at: [f64; 3], half: f64, radiance: f64) -> Self {
+        let at = cast(at);
+        let n = (-at).normalized();
+        let u = n.cross(Vec3d::new(0.3, 0.9, 0.1)).normalized();
+        Self { at, half, radiance, axes: [u, n.cross(u), n] }
+    }
+
+    fn corners(&self) -> [[Vec3d; 3]; 2] {
+        let [u, v, _] = self.axes;
+        let c = |x: f64, y: f64| self.at + u * (x * self.half) + v * (y * self.half);
+        [[c(-1.0, -1.0), c(1.0, -1.0), c(1.0, 1.0)], [c(-1.0, -1.0), c(1.0, 1.0), c(-1.0, 1.0)]]
+    }
+
+    fn light(&self) -> Light {
+        Light::Area(AreaLight::new(Spectrum::uniform(self.radiance), &self.corners()))
+    }
+
+    /// Squared distance and cosine at which a direction from the origin meets it.
+    fn meet(&self, d: Vec3d) -> Option<(f64, f64)> {
+        let [u, v, n] = self.axes;
+        let cos = -d.dot(n);
+        if cos <= 0.0 {
+            return None;
+        }
+        let t = -self.at.dot(n) / cos;
+        let p = d * t - self.at;
+        let inside = |x: f64| x.abs() <= self.half;
+        (inside(p.dot(u)) && inside(p.dot(v))).then_some((t * t, cos))
+    }
+}
+
+/// A near square that fills much of the sky, a small bright one and one below the horizon.
+fn squares() -> [Square; 3] {
+    [
+        Square::new([0.4, 0.3, 1.0], 0.8, 2.0),
+        Square::new([-2.0, 1.0, 1.5], 0.4, 30.0),
+        Square::new([1.0, -1.0, -2.0], 0.5, 5.0),
+    ]
+}
+
+const SKY: f64 = 0.8;
+
+fn table(with_sky: bool) -> LightTable {
+    let mut lights: Vec<Light> = squares().iter().map(Square::light).collect();
+    if with_sky {
+        lights.insert(1, Light::Background(Spectrum::uniform(SKY)));
+    }
+    // Objects: one that is no light, then the squares.
+    let numbers: [Option<u32>; 4] =
+        if with_sky { [None, Some(0), Some(2), Some(3)] } else { [None, Some(0), Some(1), Some(2)] };
+    LightTable::new(lights, numbers.into_iter(), 2.0)
+}
+
+fn wavelengths() -> SampledWavelengths {
+    SampledWavelengths::sample(0.4)
+}
+
+fn draw(table: &LightTable, rng: &mut Rng) -> Option<LightSample> {
+    let u = [0; 3].map(|_| rng.uniform_f32() as Real);
+    table.sample(P, N, u, &wavelengths())
+}
+
+fn cast(d: [f64; 3]) -> Vec3d {
+    Vec3d::new(d[0], d[1], d[2])
+}
+
+/// Density of drawing a direction, by the functions that weigh directions found otherwise.
+fn density(table: &LightTable, squares: &[Square], d: [f64; 3]) -> f64 {
+    let d = cast(d);
+    let of_squares: f64 = squares
+        .iter()
+        .enumerate()
+        .filter_map(|(i, s)| {
+            let (distance2, cos) = s.meet(d)?;
+            Some(table.pdf_object(1 + i as u32, distance2 as Real, cos as Real) as f64)
+        })
+        .sum();
+    of_squares + table.pdf_environment(N, d.cast()) as f64
+}
+
+/// The density of a direction is the sum over all lights that lie in it, whatever hides what.
+#[test]
+fn directions_follow_the_densities_of_the_lights() {
+    let (table, squares) = (table(true), squares());
+    let test = Chi2 { samples: 20_000, ..Chi2::new(Domain::Sphere) };
+    let result = test.run(
+        |rng| draw(&table, rng).map(|s| s.wi.to_array().map(|x| x as f64)),
+        |d| density(&table, &squares, d),
+    );
+    assert!(result.passed(), "{result}");
+}
+
+#[test]
+fn a_draw_reports_its_light_and_its_density() {
+    let (table, squares) = (table(true), squares());
+    let mut rng = Rng::new(4);
+    for _ in 0..5000 {
+        let Some(s) = draw(&table, &mut rng) else { continue };
+        assert!((s.wi.length() - 1.0).abs() < 1e-5);
+        let d: Vec3d = s.wi.cast();
+        let Some(point) = s.point else {
+            let expected = table.pdf_environment(N, s.wi);
+            assert!((s.pdf - expected).abs() <= 1e-5 * expected && s.radiance.hero() == SKY as Real);
+            continue;
+        };
+        let hit = squares
+            .iter()
+            .position(|q| (q.axes[2].cast() - point.n).length() < 1e-5)
+            .expect("one of the squares");
+        assert_eq!(s.radiance.hero(), squares[hit].radiance as Real);
+        assert!((point.p.normalized() - s.wi).length() < 1e-5);
+        let cos = -d.dot(point.n.cast());
+        let expected = table.pdf_object(1 + hit as u32, point.p.length2(), cos as Real);
+        assert!((s.pdf - expected).abs() <= 1e-4 * expected, "{} {expected}", s.pdf);
+    }
+}
+
+/// Estimates of the irradiance from drawn lights against the integral over directions.
+#[test]
+fn drawn_light_estimates_the_irradiance() {
+    let shown = squares();
+    for with_sky in [false, true] {
+        let table = table(with_sky);
+        let integral: f64 = shown
+            .iter()
+            .map(|s| {
+                let radiance = |d: [f64; 3]| s.meet(cast(d)).map_or(0.0, |_| s.radiance * d[2]);
+                hemisphere(1e-3, radiance).value
+            })
+            .sum::<f64>()
+            + if with_sky { std::f64::consts::PI * SKY } else { 0.0 };
+        let mut rng = Rng::new(5);
+        // Light from below the horizon does not count.
+        let estimates = Moments::of((0..400_000).map(|_| {
+            draw(&table, &mut rng)
+                .map_or(0.0, |s| s.radiance.hero() as f64 * (s.wi.z as f64).max(0.0) / s.pdf as f64)
+        }));
+        // The quadrature of squares' edges is good to a few parts in 10,000.
+        let test: MeanTest = welch(&estimates, &Moments::exact(integral), 5e-4 * integral).at(3e-5);
+        assert!(test.passed() && test.std_error < 3e-3 * integral, "with sky {with_sky}: {test}");
+    }
+}
+
+/// A square's share of the draws is its share of the power: π · area · radiance.
+#[test]
+fn lights_are_chosen_by_power() {
+    let table = table(false);
+    let power = squares().map(|s| 4.0 * s.half * s.half * s.radiance);
+    let total: f64 = power.iter().sum();
+    for (i, (s, p)) in squares().iter().zip(power).enumerate() {
+        // Density over area, from the density over directions under a cosine of 1 at 1 m.
+        let over_area = table.pdf_object(1 + i as u32, 1.0, 1.0) as f64;
+        let expected = p / total / (4.0 * s.half * s.half);
+        assert!((over_area / expected - 1.0).abs() < 1e-5, "light {i}: {over_area} {expected}");
+    }
+}
+
+#[test]
+fn what_is_no_light_has_no_density_and_no_light() {
+    let lambda = wavelengths();
+    for table in [table(false), LightTable::new(vec![], [None].into_iter(), 1.0)] {
+        assert!(!table.is_emitter(0) && !table.is_emitter(99));
+        assert!(table.emitted(0, &lambda).is_none());
+        assert_eq!(table.pdf_object(0, 1.0, 1.0), 0.0);
+        assert!(table.environment(&lambda).is_none());
+        assert_eq!(table.pdf_environment(N, N), 0.0);
+    }
+    assert!(LightTable::new(vec![], [None].into_iter(), 1.0).sample(P, N, [0.5; 3], &lambda).is_none());
+}
+
+/// A table whose lights are all black chooses among them all the same, and never reports a number
+/// that is none; a point on the light itself gets no light from it.
+#[test]
+fn degenerate_lights_give_numbers() {
+    let black = Square::new([0.0, 0.0, 1.0], 1.0, 0.0);
+    let touching = Square::new([0.0, 0.0, 1e-20], 1.0, 1.0);
+    for square in [black, touching] {
+        let table = LightTable::new(vec![square.light()], [Some(0)].into_iter(), 0.0);
+        let mut rng = Rng::new(6);
+        for _ in 0..1000 {
+            if let Some(s) = draw(&table, &mut rng) {
+                assert!(s.pdf > 0.0 && s.pdf.is_finite() && s.wi.is_finite(), "{s:?}");
+            }
+        }
+    }
+}
+
+/// The densities over all directions sum to one.
+#[test]
+fn the_density_is_one() {
+    let (table, squares) = (table(true), squares());
+    let integral = sphere(2e-3, |d| density(&table, &squares, d));
+    assert!((integral.value - 1.0).abs() < 2e-3, "{integral:?}");
+}
