@@ -165,7 +165,7 @@ impl Accel {
     pub fn stats(&self) -> Stats {
         let mesh_bytes = self.meshes.iter().map(TriangleMesh::bytes).sum();
         let shapes = self.objects.iter().filter(|o| !matches!(o, Object::Mesh { .. })).count();
-        Stats { mesh_bytes, shapes, ..self.trees.stats }
+        Stats { shapes, mesh_bytes, ..self.trees.stats }
     }
 
     /// The objects, by id. Planes have unit normals here.
@@ -183,8 +183,9 @@ impl Accel {
         !self.trees.is_instanced[mesh as usize]
     }
 
+    #[inline(always)]
     fn view(&self) -> View<'_> {
-        View { nodes: &self.trees.nodes, blocks: &self.trees.blocks }
+        View { nodes: self.trees.nodes.items(), blocks: self.trees.blocks.items() }
     }
 
     #[inline(always)]

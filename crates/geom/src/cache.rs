@@ -13,8 +13,8 @@ const MAGIC: [u8; 8] = *b"IndiTree";
 /// To be raised with every change to this layout, to a builder, or to what the kernel expects.
 const VERSION: u32 = 1;
 const HEADER: usize = 8 + 4 + 4 + 3 * 8 + 4 + 6 * 4;
-const NODE: usize = size_of::<Node>();
-const BLOCK: usize = size_of::<Block>();
+const NODE: usize = (6 * 8 + 8) * 4;
+const BLOCK: usize = (9 * 8 + 8) * 4;
 const HASH: usize = 32;
 
 /// A tree over the triangles, how many were left out, and whether it came from the store.
@@ -138,7 +138,7 @@ fn decode(bytes: &[u8], soup: &Soup, builder: Builder) -> Option<(WideTree, usiz
     let mut tree =
         WideTree { nodes: Vec::with_capacity(nodes), blocks: Vec::with_capacity(blocks), root, bounds };
     for _ in 0..nodes {
-        let node = Node { bounds: rows(&mut r)?, children: r.words()?.map(Child) };
+        let node = Node { bounds: rows(&mut r)?, children: r.words()?.map(Child), unused: [0; 8] };
         tree.nodes.push(node);
     }
     for _ in 0..blocks {

@@ -13,6 +13,7 @@ mod build;
 mod cache;
 mod mesh;
 mod object;
+mod pages;
 mod ray;
 mod shapes;
 mod soup;

@@ -18,7 +18,7 @@ pub(crate) fn hit_sphere(ray: &Ray, center: Vec3d, radius: f64, t_max: Real) -> 
     let half_b = -from_center.dot(d);
     let perpendicular = from_center + d * (half_b / a);
     let discriminant = radius * radius - perpendicular.length2();
-    if !(discriminant >= 0.0) {
+    if discriminant.is_nan() || discriminant < 0.0 {
         return None;
     }
     let distance = from_center.length();

@@ -4,6 +4,7 @@ use crate::accel::{BuildError, BuildOptions, Stats};
 use crate::cache::load_or_build;
 use crate::mesh::TriangleMesh;
 use crate::object::Object;
+use crate::pages::Pages;
 use crate::soup::{Soup, bake};
 use crate::store::TreeStore;
 use crate::top::{TopItem, build_top, open, sphere_box, transformed_box};
@@ -21,9 +22,9 @@ pub(crate) struct Special {
 /// All trees behind each other.
 pub(crate) struct Trees {
     /// Nodes of all trees, the upper one last.
-    pub nodes: Vec<Node>,
+    pub nodes: Pages<Node>,
     /// Triangles of all trees.
-    pub blocks: Vec<Block>,
+    pub blocks: Pages<Block>,
     /// Where rays begin; [`Child::NONE`] where there is no tree.
     pub root: Child,
     /// Box round the root.
@@ -50,40 +51,36 @@ impl Trees {
     ) -> Result<Self, BuildError> {
         let plan = Plan::new(meshes, objects, options);
         plan.check(meshes, objects)?;
-        let mut trees = Self::empty();
-        let (soup, owners) = bake(meshes, objects, &plan.baked);
-        trees.baked = owners;
-        let (baked_root, baked_bounds) = trees.add(&soup, options, store);
+        let mut forest = Forest { nodes: Vec::new(), blocks: Vec::new(), stats: Stats::default() };
+        let (soup, baked) = bake(meshes, objects, &plan.baked);
+        let (mut root, mut bounds) = forest.add(&soup, options, store);
         drop(soup);
         let mut roots = vec![(Child::NONE, Box3::EMPTY); meshes.len()];
         for &mesh in &plan.instanced {
-            roots[mesh as usize] = trees.add(&Soup::of(&meshes[mesh as usize]), options, store);
+            roots[mesh as usize] = forest.add(&Soup::of(&meshes[mesh as usize]), options, store);
         }
-        let mut items = trees.special_items(objects, &plan, &roots);
-        (trees.root, trees.bounds) = (baked_root, baked_bounds);
+        let (mut items, specials) = special_items(objects, &plan, &roots);
         if !items.is_empty() {
-            if baked_root != Child::NONE {
-                items.extend(open(baked_root, baked_bounds, &trees.nodes));
+            if root != Child::NONE {
+                items.extend(open(root, bounds, &forest.nodes));
             }
-            (trees.root, trees.bounds) = build_top(&items, &mut trees.nodes);
+            (root, bounds) = build_top(&items, &mut forest.nodes);
         }
-        trees.is_instanced = plan.is_instanced;
-        trees.stats.tree_bytes = size_of_val(trees.nodes.as_slice()) + size_of_val(trees.blocks.as_slice());
-        Ok(trees)
-    }
-
-    fn empty() -> Self {
-        Self {
-            nodes: Vec::new(),
-            blocks: Vec::new(),
-            root: Child::NONE,
-            bounds: Box3::EMPTY,
-            specials: Vec::new(),
-            planes: Vec::new(),
-            stats: Stats::default(),
-            is_instanced: Vec::new(),
-            baked: Vec::new(),
-        }
+        let Forest { nodes, blocks, mut stats } = forest;
+        stats.tree_bytes = size_of_val(nodes.as_slice()) + size_of_val(blocks.as_slice());
+        stats.instances = specials.iter().filter(|s| s.root != Child::NONE).count();
+        let is_plane = |&i: &u32| matches!(objects[i as usize], Object::Plane { .. });
+        Ok(Self {
+            nodes: Pages::new(nodes),
+            blocks: Pages::new(blocks),
+            root,
+            bounds,
+            specials,
+            planes: (0..objects.len() as u32).filter(is_plane).collect(),
+            stats,
+            is_instanced: plan.is_instanced,
+            baked,
+        })
     }
 
     /// The object and the triangle of its mesh that a triangle of the baked tree belongs to.
@@ -93,7 +90,16 @@ impl Trees {
         let (first, object) = self.baked[behind - 1];
         (object, triangle - first)
     }
+}
 
+/// Trees behind each other while they are built.
+struct Forest {
+    nodes: Vec<Node>,
+    blocks: Vec<Block>,
+    stats: Stats,
+}
+
+impl Forest {
     /// Adds the tree of some triangles; returns its root and box.
     fn add(&mut self, soup: &Soup, options: &BuildOptions, store: &dyn TreeStore) -> (Child, Box3) {
         let (tree, skipped, loaded) = load_or_build(soup, options.builder_for(soup.triangles.len()), store);
@@ -110,32 +116,27 @@ impl Trees {
         self.blocks.extend(tree.blocks);
         (tree.root.moved(n, b), tree.bounds)
     }
+}
 
-    /// The instances and spheres as things of the upper tree; notes the planes.
-    fn special_items(&mut self, objects: &[Object], plan: &Plan, roots: &[(Child, Box3)]) -> Vec<TopItem> {
-        let mut items = Vec::new();
-        for (i, object) in objects.iter().enumerate() {
-            let object_id = i as u32;
-            let (root, bounds) = match object {
-                Object::Plane { .. } => {
-                    self.planes.push(object_id);
+/// The instances and spheres as things of the upper tree, and by number.
+fn special_items(objects: &[Object], plan: &Plan, roots: &[(Child, Box3)]) -> (Vec<TopItem>, Vec<Special>) {
+    let (mut items, mut specials) = (Vec::new(), Vec::new());
+    for (i, object) in objects.iter().enumerate() {
+        let (root, bounds) = match object {
+            Object::Plane { .. } => continue,
+            Object::Sphere { center, radius } => (Child::NONE, sphere_box(*center, *radius)),
+            Object::Mesh { mesh, transform } => {
+                let (root, bounds) = roots[*mesh as usize];
+                if plan.is_baked(*mesh) || root == Child::NONE {
                     continue;
                 }
-                Object::Sphere { center, radius } => (Child::NONE, sphere_box(*center, *radius)),
-                Object::Mesh { mesh, transform } => {
-                    let (root, bounds) = roots[*mesh as usize];
-                    if plan.is_baked(*mesh) || root == Child::NONE {
-                        continue;
-                    }
-                    self.stats.instances += 1;
-                    (root, transformed_box(&bounds, transform))
-                }
-            };
-            items.push(TopItem { bounds, child: Child::special(self.specials.len() as u32) });
-            self.specials.push(Special { object: object_id, root });
-        }
-        items
+                (root, transformed_box(&bounds, transform))
+            }
+        };
+        items.push(TopItem { bounds, child: Child::special(specials.len() as u32) });
+        specials.push(Special { object: i as u32, root });
     }
+    (items, specials)
 }
 
 /// Which meshes are baked and which are shared.

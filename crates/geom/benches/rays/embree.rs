@@ -10,6 +10,9 @@ use std::ptr::null_mut;
 use std::time::{Duration, Instant};
 
 type Handle = *mut c_void;
+type Set = unsafe extern "C" fn(Handle, i32);
+type Act = unsafe extern "C" fn(Handle);
+type Buffer = unsafe extern "C" fn(Handle, i32, u32, i32, usize, usize) -> Handle;
 
 /// `RTCRay`.
 #[repr(C, align(16))]
@@ -124,9 +127,6 @@ impl Device<'_> {
     /// Builds a mesh.
     pub fn scene(&self, mesh: &TriangleMesh, mode: Mode) -> Scene<'_> {
         let e = self.embree;
-        type Set = unsafe extern "C" fn(Handle, i32);
-        type Act = unsafe extern "C" fn(Handle);
-        type Buffer = unsafe extern "C" fn(Handle, i32, u32, i32, usize, usize) -> Handle;
         let (positions, triangles) = (mesh.positions(), mesh.triangles());
         // SAFETY: the signatures and constants of Embree 4's rtcore_scene.h and rtcore_geometry.h;
         // each buffer has room for what is copied into it.

@@ -89,10 +89,13 @@ fn best_of_three(mut run: impl FnMut() -> Duration) -> Duration {
     (0..3).map(|_| run()).min().unwrap_or_default()
 }
 
+/// Traces rays, for any hit where told so; returns how many hit and the sum of the distances.
+type Trace<'a> = dyn Fn(&[Ray], bool) -> (usize, f64) + 'a;
+
 /// One entry of the race.
 struct Contender<'a> {
     name: &'static str,
-    trace: Box<dyn Fn(&[Ray], bool) -> (usize, f64) + 'a>,
+    trace: Box<Trace<'a>>,
     /// Seconds to build with one and with two threads.
     builds: [f64; 2],
     bytes_per_triangle: Option<f64>,
@@ -173,7 +176,9 @@ fn race(embree: &Embree, scene: &BenchScene, reps: usize, missed: &mut Vec<Strin
 /// Times one ray set for all contenders in turn: for each short piece of it the shortest of `reps`
 /// runs, summed, so that other load on the machine falls on few pieces and on all contenders alike.
 fn time_set(field: &mut [Contender], k: usize, set: &[Ray], reps: usize) {
-    field.iter_mut().for_each(|c| (c.best[k], c.hits[k]) = (0.0, 0));
+    for c in field.iter_mut() {
+        (c.best[k], c.hits[k]) = (0.0, 0);
+    }
     for piece in set.chunks(PIECE) {
         let mut best = vec![f64::INFINITY; field.len()];
         let mut hits = vec![0; field.len()];

@@ -2,27 +2,74 @@
 
 use crate::wide::Box3;
 
-/// What is sorted into a tree: a box and a number.
+/// A box as x, y, z of the least corner and the negated greatest corner, each with a place to spare,
+/// so that a union is one minimum of eight lanes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(32))]
-pub(crate) struct Prim {
-    /// Least corner.
-    pub lo: [f32; 3],
-    /// Number of the triangle or object.
-    pub id: u32,
-    /// Greatest corner.
-    pub hi: [f32; 3],
-    unused: u32,
-}
+pub(crate) struct Lanes([f32; 8]);
 
-impl Prim {
-    pub(crate) fn new(bounds: &Box3, id: u32) -> Self {
-        Self { lo: bounds.lo, id, hi: bounds.hi, unused: 0 }
+impl Lanes {
+    pub(crate) const EMPTY: Self = Self([f32::INFINITY; 8]);
+
+    #[inline(always)]
+    pub(crate) fn join(&self, b: &Self) -> Self {
+        // Not a comparison and choice: that becomes a masked store into the bins, which stalls.
+        Self(std::array::from_fn(|i| self.0[i].min(b.0[i])))
     }
 
     #[inline(always)]
-    pub(crate) fn bounds(&self) -> Box3 {
-        Box3 { lo: self.lo, hi: self.hi }
+    pub(crate) fn lo(&self) -> [f32; 3] {
+        [self.0[0], self.0[1], self.0[2]]
+    }
+
+    #[inline(always)]
+    pub(crate) fn size(&self) -> [f32; 3] {
+        std::array::from_fn(|i| -self.0[4 + i] - self.0[i])
+    }
+
+    #[inline(always)]
+    pub(crate) fn half_area(&self) -> f32 {
+        let [x, y, z] = self.size();
+        x * y + y * z + z * x
+    }
+
+    #[inline(always)]
+    pub(crate) fn to_box(self) -> Box3 {
+        Box3 { lo: self.lo(), hi: std::array::from_fn(|i| -self.0[4 + i]) }
+    }
+}
+
+/// What is sorted into a tree: a box, with a number in the first spare place.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Prim(Lanes);
+
+impl Prim {
+    pub(crate) fn new(b: &Box3, id: u32) -> Self {
+        let ([x, y, z], [a, b, c]) = (b.lo, b.hi);
+        Self(Lanes([x, y, z, f32::from_bits(id), -a, -b, -c, 0.0]))
+    }
+
+    #[inline(always)]
+    pub(crate) fn id(&self) -> u32 {
+        self.0.0[3].to_bits()
+    }
+
+    #[inline(always)]
+    pub(crate) fn lanes(&self) -> &Lanes {
+        &self.0
+    }
+
+    /// Twice the centre, which saves a product.
+    #[inline(always)]
+    pub(crate) fn center(&self) -> [f32; 3] {
+        std::array::from_fn(|i| self.0.0[i] - self.0.0[4 + i])
+    }
+
+    /// The doubled centre as a box.
+    #[inline(always)]
+    pub(crate) fn center_lanes(&self) -> Lanes {
+        let l = &self.0.0;
+        Lanes(std::array::from_fn(|i| if i < 4 { l[i] - l[i + 4] } else { l[i] - l[i - 4] }))
     }
 }
 

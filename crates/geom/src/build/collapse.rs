@@ -146,7 +146,7 @@ impl Emitter<'_> {
 
     fn collect_ids(&mut self, i: usize) {
         if let Some(range) = self.binary[i].prims() {
-            self.ids.extend(self.prims[range].iter().map(|p| p.id));
+            self.ids.extend(self.prims[range].iter().map(Prim::id));
         } else {
             let [left, right] = self.binary[i].children(i);
             self.collect_ids(left);

@@ -10,9 +10,9 @@ use crate::wide::Box3;
 use rayon::prelude::*;
 
 /// Rounds.
-const ROUNDS: usize = 2;
+const ROUNDS: usize = 4;
 /// Part of the nodes, those of the largest area, that each round tries to move.
-const CANDIDATES: f64 = 0.15;
+const CANDIDATES: f64 = 0.25;
 
 const ROOT: u32 = 0;
 const NONE: u32 = u32::MAX;
@@ -144,7 +144,9 @@ impl Tree {
             if involved.iter().any(|&i| touched[i as usize]) || self.is_below(m.beside, m.node) {
                 continue;
             }
-            involved.iter().for_each(|&i| touched[i as usize] = true);
+            for i in involved {
+                touched[i as usize] = true;
+            }
             self.make_move(*m);
         }
     }

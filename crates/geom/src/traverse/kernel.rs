@@ -18,12 +18,12 @@ pub(crate) trait KeyBits: Float {
     fn to_key(self) -> u32;
     /// The number of those leading bits.
     fn from_key(key: u32) -> Self;
-    /// The enlargement 1 + 2γ₃ of far box distances.
+    /// The enlargement 1 + 2γ₃ of far box distances, and a rounding more for its own product.
     const ENLARGE: Self;
 }
 
 impl KeyBits for f32 {
-    const ENLARGE: Self = 1.0 + 3.0 * f32::EPSILON;
+    const ENLARGE: Self = 1.0 + 4.0 * f32::EPSILON;
     #[inline(always)]
     fn to_key(self) -> u32 {
         self.to_bits()
@@ -35,7 +35,7 @@ impl KeyBits for f32 {
 }
 
 impl KeyBits for f64 {
-    const ENLARGE: Self = 1.0 + 3.0 * f64::EPSILON;
+    const ENLARGE: Self = 1.0 + 4.0 * f64::EPSILON;
     #[inline(always)]
     fn to_key(self) -> u32 {
         (self.to_bits() >> 32) as u32
@@ -134,8 +134,9 @@ struct BoxTest<L> {
     inverse: [L; 3],
     /// Rows of `Node::bounds` that the ray enters first, an axis each.
     near: [usize; 3],
+    /// The inverse direction for the planes through which the ray leaves, enlarged.
+    inverse_far: [L; 3],
     t_min: L,
-    enlarge: L,
 }
 
 impl<L: Lanes> BoxTest<L> {
@@ -149,19 +150,18 @@ impl<L: Lanes> BoxTest<L> {
             inverse: inverse.map(L::splat),
             near: std::array::from_fn(|i| 2 * i + usize::from(inverse[i] < L::Scalar::ZERO)),
             t_min: L::splat(ray.t_min),
-            enlarge: L::splat(L::Scalar::ENLARGE),
+            inverse_far: inverse.map(|r| L::splat(r * L::Scalar::ENLARGE)),
         }
     }
 
     /// Distances at which the eight boxes are entered, and which of them are met before `t_max`.
     #[inline(always)]
     fn test(&self, node: &Node, t_max: L) -> (L, u32) {
-        let at = |axis: usize, row: usize| {
-            L::load(place(&node.bounds, row)).sub(self.origin[axis]).mul(self.inverse[axis])
-        };
-        let [nx, ny, nz] = self.near;
-        let enter = at(0, nx).max(at(1, ny)).max(at(2, nz).max(self.t_min));
-        let leave = at(0, nx ^ 1).min(at(1, ny ^ 1)).min(at(2, nz ^ 1)).mul(self.enlarge).min(t_max);
+        let plane = |axis: usize, row: usize| L::load(place(&node.bounds, row)).sub(self.origin[axis]);
+        let near = |axis: usize| plane(axis, self.near[axis]).mul(self.inverse[axis]);
+        let far = |axis: usize| plane(axis, self.near[axis] ^ 1).mul(self.inverse_far[axis]);
+        let enter = near(0).max(near(1)).max(near(2).max(self.t_min));
+        let leave = far(0).min(far(1)).min(far(2).min(t_max));
         (enter, enter.le(leave))
     }
 }
@@ -200,7 +200,7 @@ impl<L: Lanes> TriangleTest<L> {
         Self {
             axes,
             origin: axes.map(|k| L::splat(ray.o[k])),
-            shear: [L::splat(ray.d[kx] / ray.d[kz]), L::splat(ray.d[ky] / ray.d[kz])],
+            shear: [L::splat(ray.d[kx] * scale), L::splat(ray.d[ky] * scale)],
             scale: L::splat(scale),
             t_min: L::splat(ray.t_min),
         }

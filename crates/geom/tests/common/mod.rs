@@ -118,7 +118,7 @@ pub fn brute_force(mesh: &TriangleMesh, ray: &Ray) -> Vec<OracleHit> {
         let t = e2.dot(s.cross(e1)) / det;
         let inside = u.min(v).min(1.0 - u - v);
         let grazing = det.abs() / (e1.cross(e2).length() * d.length());
-        if inside > -1e-4 && t > f64::from(ray.t_min as f32) && t < ray.t_max.to_f64() {
+        if inside > -1e-4 && t > ray.t_min.to_f64() && t < ray.t_max.to_f64() {
             hits.push(OracleHit { triangle: i as u32, t, inside, grazing });
         }
     }
