@@ -1,0 +1,94 @@
+//! What the program writes.
+
+use super::workbench::{Workbench, assert_picture};
+
+const QUIET: &str = "<logging>false</logging>";
+
+#[test]
+fn the_picture_goes_where_it_was_asked_for_and_its_siblings_beside_it() {
+    let both =
+        "<save_untonemapped_exr>true</save_untonemapped_exr><save_tonemapped_exr>true</save_tonemapped_exr>";
+    let bench = Workbench::new(&format!("{QUIET}{both}"));
+    let ran = bench.run(&["scene.igs", "-haltspp", "2", "-o", "new/place/shot.png", "-t", "1"]);
+    assert_eq!(ran.status, Some(0), "{ran:?}");
+    for name in ["shot.png", "shot_untonemapped.exr", "shot_tonemapped.exr"] {
+        assert_picture(&bench.path("new/place").join(name), 40, 30);
+        assert!(ran.stderr.contains(name), "{name} is not named: {}", ran.stderr);
+    }
+    assert_eq!(std::fs::read_dir(bench.path("new/place")).expect("it was made").count(), 3);
+}
+
+#[test]
+fn without_a_name_the_picture_is_named_by_time_and_scene() {
+    let bench = Workbench::new(QUIET);
+    let ran = bench.run(&["-haltspp", "1", "scene.igs"]);
+    assert_eq!(ran.status, Some(0), "{ran:?}");
+    let names: Vec<String> = std::fs::read_dir(bench.path("renders"))
+        .expect("the directory of pictures")
+        .map(|e| e.expect("an entry").file_name().to_string_lossy().into_owned())
+        .collect();
+    let [name] = &names[..] else { panic!("{names:?}") };
+    // im_20081122T041500Z_scene.png
+    let stamp =
+        name.strip_prefix("im_").and_then(|n| n.strip_suffix("_scene.png")).expect("the form of names");
+    assert!(stamp.len() == 16 && stamp.as_bytes()[8] == b'T' && stamp.ends_with('Z'), "{name}");
+    assert!(ran.stderr.contains(name), "the picture is not named: {}", ran.stderr);
+    assert_picture(&bench.path("renders").join(name), 40, 30);
+}
+
+#[test]
+fn a_log_is_kept_if_wanted() {
+    let bench = Workbench::new("<logging>true</logging>");
+    let ran = bench.run(&["scene.igs", "-haltspp", "1", "-o", "a.png"]);
+    assert_eq!(ran.status, Some(0), "{ran:?}");
+    let log = std::fs::read_to_string(bench.path("log.txt")).expect("a log");
+    assert!(log.contains("Saved a.png"), "{log}");
+    let quiet = Workbench::new(QUIET);
+    assert_eq!(quiet.run(&["scene.igs", "-haltspp", "1", "-o", "a.png"]).status, Some(0));
+    assert!(!quiet.path("log.txt").exists());
+}
+
+#[test]
+fn a_picture_says_how_it_was_made() {
+    let bench = Workbench::new(&format!("{QUIET}<max_depth>6</max_depth>"));
+    let ran =
+        bench.run(&["scene.igs", "-haltspp", "3", "-o", "a.png", "-seed", "12345678901234567890", "-t", "2"]);
+    assert_eq!(ran.status, Some(0), "{ran:?}");
+    let told = bench.run(&["-dumpmetadata", "a.png"]);
+    assert_eq!(told.status, Some(0), "{told:?}");
+    for line in ["seed: 12345678901234567890", "maxdepth: 6", "num_threads: 2", "num_samples: 3600"] {
+        assert!(told.stdout.contains(line), "{line}: {}", told.stdout);
+    }
+    bench.write("b.png", "not a picture");
+    assert_eq!(bench.run(&["-dumpmetadata", "b.png"]).status, Some(1));
+    assert_eq!(bench.run(&["-dumpmetadata", "nowhere.png"]).status, Some(1));
+}
+
+#[test]
+fn the_same_seed_gives_the_same_picture() {
+    let bench = Workbench::new(QUIET);
+    let picture = |name: &str, seed: &str, threads: &str| {
+        let ran = bench.run(&["scene.igs", "-haltspp", "4", "-o", name, "-seed", seed, "-t", threads]);
+        assert_eq!(ran.status, Some(0), "{ran:?}");
+        let bytes = std::fs::read(bench.path(name)).expect("the picture");
+        let image = indigo_formats::image::decode(name, &bytes).expect("a picture");
+        let indigo_formats::image::Pixels::U8(values) = image.pixels else { panic!("8 bits are expected") };
+        values
+    };
+    let (a, b, c) = (picture("a.png", "5", "1"), picture("b.png", "5", "3"), picture("c.png", "6", "1"));
+    // The rounding of sums may turn a value at the border between two levels.
+    assert!(a.iter().zip(&b).all(|(x, y)| x.abs_diff(*y) <= 1));
+    assert!(a != c, "another seed gives the same picture");
+}
+
+/// A file stands where the directory ought to be: even the system's owner cannot write there.
+#[test]
+fn a_picture_that_cannot_be_written_is_a_failure_that_says_so() {
+    let bench = Workbench::new(&format!("{QUIET}<image_save_period>0.05</image_save_period>"));
+    bench.write("wall", "not a directory");
+    let ran = bench.run(&["scene.igs", "-halt", "1", "-o", "wall/a.png"]);
+    assert_eq!(ran.status, Some(1), "{ran:?}");
+    let warned = ran.stderr.find("warning: cannot write wall/a.png");
+    let failed = ran.stderr.find("error: cannot write wall/a.png");
+    assert!(warned.is_some() && warned < failed, "said while rendering, and at the end: {}", ran.stderr);
+}

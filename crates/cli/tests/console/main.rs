@@ -1,0 +1,7 @@
+//! The console program, run as users run it.
+
+mod files;
+mod messages;
+#[cfg(unix)]
+mod signals;
+mod workbench;

@@ -1,0 +1,85 @@
+//! What the program says, and the status that it ends with.
+
+use super::workbench::{Workbench, scene};
+
+#[test]
+fn help_and_version_are_answers_not_errors() {
+    let bench = Workbench::new("");
+    for arguments in [["--help"], ["-help"]] {
+        let ran = bench.run(&arguments);
+        assert_eq!(ran.status, Some(0));
+        assert!(ran.stdout.contains("Usage: indigo_console") && ran.stdout.contains("-haltspp"), "{ran:?}");
+    }
+    let ran = bench.run(&["--version"]);
+    assert_eq!(ran.status, Some(0));
+    assert!(ran.stdout.starts_with("Indigo Renderer v") && ran.stderr.is_empty(), "{ran:?}");
+}
+
+#[test]
+fn bad_usage_ends_with_2_and_a_way_out() {
+    let bench = Workbench::new("<logging>false</logging>");
+    for (arguments, says) in [
+        (vec![], "no scene is given"),
+        (vec!["scene.igs", "-haltsp", "3"], "did you mean -haltspp?"),
+        (vec!["scene.igs", "-halt"], "-halt needs a value"),
+        (vec!["scene.igs", "-seed", "x"], "whole number"),
+        (vec!["scene.igs", "other.igs"], "two scenes"),
+        (vec!["scene.igs", "-haltspp", "many"], "many"),
+        (vec!["scene.igs", "-t", "0"], "num_threads"),
+        (vec!["nowhere.igs"], "nowhere.igs"),
+    ] {
+        let ran = bench.run(&arguments);
+        assert_eq!(ran.status, Some(2), "{arguments:?}: {ran:?}");
+        assert!(ran.stderr.contains(says), "{arguments:?}: {ran:?}");
+    }
+    assert_eq!(bench.files(), ["scene.igs"], "nothing is written");
+}
+
+#[test]
+fn a_bad_scene_ends_with_2_and_every_fault_with_its_place() {
+    let bench = Workbench::new("<logging>false</logging>");
+    let text = scene("").replace("<radius>1<", "<radius>-1<").replace("<value>1e5<", "<value>bright<");
+    bench.write("bad.igs", &text);
+    for arguments in [vec!["bad.igs", "-haltspp", "1"], vec!["bad.igs", "--check"]] {
+        let ran = bench.run(&arguments);
+        assert_eq!(ran.status, Some(2), "{ran:?}");
+        let line_of = |what: &str| 1 + text.lines().position(|l| l.contains(what)).expect("the fault");
+        for line in [line_of("<radius>-1"), line_of("bright")] {
+            assert!(ran.stderr.contains(&format!("bad.igs:{line}:")), "line {line}: {}", ran.stderr);
+        }
+        assert!(ran.stderr.contains("2 errors"), "{}", ran.stderr);
+    }
+}
+
+#[test]
+fn check_reports_without_rendering() {
+    let bench = Workbench::new("<logging>true</logging>");
+    let ran = bench.run(&["scene.igs", "--check"]);
+    assert_eq!(ran.status, Some(0), "{ran:?}");
+    assert!(ran.stderr.contains("scene.igs: no errors"), "{ran:?}");
+    assert_eq!(bench.files(), ["scene.igs"], "nothing is written");
+}
+
+#[test]
+fn settings_are_listed_with_their_origins() {
+    let bench = Workbench::new("<max_depth>7</max_depth><halt_time>5</halt_time>");
+    bench.write(
+        "inifile.xml",
+        "<settings><max_depth>3</max_depth><image_save_period>2.5</image_save_period></settings>",
+    );
+    let ran = bench.run(&["scene.igs", "--print-settings", "-halt", "9"]);
+    assert_eq!(ran.status, Some(0), "{ran:?}");
+    for (name, value, origin) in [
+        ("max_depth", "7", "scene"),
+        ("halt_time", "9", "command line"),
+        ("image_save_period", "2.5", "inifile.xml"),
+        ("super_sample_factor", "2", "default"),
+        ("width", "40", "scene"),
+    ] {
+        let line = ran.stdout.lines().find(|l| l.split_whitespace().next() == Some(name));
+        let words: Vec<&str> = line.unwrap_or_else(|| panic!("{name} is missing")).splitn(2, ' ').collect();
+        let rest = words[1].trim();
+        assert_eq!(rest.split_whitespace().next(), Some(value), "{name}");
+        assert!(rest.ends_with(&format!("({origin})")), "{name}: {rest}");
+    }
+}
