@@ -3,7 +3,7 @@
 use indigo_diag::{Style, to_text};
 use indigo_geom::NoStore;
 use indigo_igs::Limits;
-use indigo_render::DiskResolver;
+use indigo_render::disk::DiskResolver;
 use indigo_scene::{LoadOptions, load};
 use std::path::{Path, PathBuf};
 

@@ -28,7 +28,8 @@ pub fn write_head(view: &View, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "<renderer_settings>\n<width>{width}</width>\n<height>{height}</height>")?;
     writeln!(
         out,
-        "<metropolis>false</metropolis>\n<bidirectional>false</bidirectional>\n</renderer_settings>"
+        "<metropolis>false</metropolis>\n<bidirectional>false</bidirectional>\n\
+         <aperture_diffraction>false</aperture_diffraction>\n</renderer_settings>"
     )?;
     writeln!(out, "<tonemapping>\n<reinhard>\n<pre_scale>{}</pre_scale>", view.pre_scale)?;
     writeln!(out, "<post_scale>1</post_scale>\n<burn>6</burn>\n</reinhard>\n</tonemapping>")?;

@@ -21,10 +21,10 @@ pub fn write_scene(out: &mut dyn Write) -> io::Result<()> {
         at: [0.0, -0.4, 0.0],
         lens_sensor_dist: 0.036,
         focus: 11.5,
-        pre_scale: 1.5,
+        pre_scale: 0.5,
     };
     write_head(&view, out)?;
-    write_background(8e5, out)?;
+    write_background(1.5e5, out)?;
     write_diffuse("ground", [0.25, 0.24, 0.22], out)?;
     write_diffuse("bead", [0.05, 0.18, 0.45], out)?;
     write_diffuse("seed", [0.80, 0.33, 0.04], out)?;
@@ -61,7 +61,7 @@ fn leaning(angle: f64, tilt: f64) -> [Vector; 3] {
 
 /// A square large enough to fill the view.
 fn ground() -> Mesh {
-    let corner = |x: f64, y: f64| [60.0 * x, 60.0 * y, -0.1];
+    let corner = |x: f64, y: f64| [16.0 * x, 16.0 * y, -0.1];
     Mesh {
         positions: vec![corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)],
         normals: vec![[0.0, 0.0, 1.0]; 4],

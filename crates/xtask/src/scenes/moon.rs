@@ -68,10 +68,10 @@ fn write_scene(mesh: impl Fn(&mut dyn Write) -> io::Result<()>, out: &mut dyn Wr
         at: [0.0; 3],
         lens_sensor_dist: 0.064,
         focus: 3.3,
-        pre_scale: 0.12,
+        pre_scale: 0.038,
     };
     write_head(&view, out)?;
-    write_background(1.5e3, out)?;
+    write_background(3e2, out)?;
     // External meshes of this format name their material so.
     write_diffuse("default", [0.42, 0.40, 0.37], out)?;
     mesh(out)?;
