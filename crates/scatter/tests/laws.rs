@@ -57,7 +57,8 @@ fn directions_follow_the_density() {
     let cases = cases();
     for (seed, case) in cases.iter().enumerate() {
         let point = case.point();
-        let test = Chi2 { samples: 60_000, seed: seed as u64, ..Chi2::new(Domain::Sphere).among(cases.len()) };
+        let test =
+            Chi2 { samples: 60_000, seed: seed as u64, ..Chi2::new(Domain::Sphere).among(cases.len()) };
         let result = test.run(
             |rng| point.sample(random(rng), Mode::Radiance).map(|s| array(s.wi)),
             |wi| {
@@ -119,8 +120,9 @@ fn both_modes_are_adjoint() {
         for _ in 0..2000 {
             let wi = random_direction(&mut rng);
             let there = case.point().eval(wi, Mode::Radiance).f_cos / wi.dot(case.n_g);
-            let back = ShadingPoint::new(case.leaf, case.n_g, case.n_s, wi).eval(case.wo, Mode::Importance).f_cos
-                / case.wo.dot(case.n_g);
+            let back =
+                ShadingPoint::new(case.leaf, case.n_g, case.n_s, wi).eval(case.wo, Mode::Importance).f_cos
+                    / case.wo.dot(case.n_g);
             lit += u32::from(!there.is_black());
             for lane in 0..LANES {
                 assert_close(&format!("{case}, wi {wi:?}, lane {lane}"), there[lane], back[lane]);
@@ -139,9 +141,10 @@ fn albedo_is_at_most_one_and_weights_average_to_it() {
         assert!(albedo <= 1.0 + 1e-4, "{case}: albedo {albedo}");
         let mut rng = Rng::new(10);
         // Where nothing is drawn nothing is scattered.
-        let weights = Moments::of((0..40_000).map(|_| {
-            point.sample(random(&mut rng), Mode::Radiance).map_or(0.0, |s| s.weight.hero() as f64)
-        }));
+        let weights =
+            Moments::of((0..40_000).map(|_| {
+                point.sample(random(&mut rng), Mode::Radiance).map_or(0.0, |s| s.weight.hero() as f64)
+            }));
         // 1e-4 is what the quadrature and single precision leave; one alarm of 1e-4 among all cases.
         let test = welch(&weights, &Moments::exact(albedo), 1e-4).at(1e-6);
         assert!(test.passed(), "{case}: {test}");
@@ -195,7 +198,8 @@ fn degenerate_directions_give_numbers() {
                 for wi in directions {
                     let e = point.eval(wi, mode);
                     let finite = e.f_cos.is_finite() && e.pdf.is_finite() && e.pdf_rev.is_finite();
-                    let positive = e.f_cos.min_lane() >= 0.0 && e.pdf.min_lane() >= 0.0 && e.pdf_rev.min_lane() >= 0.0;
+                    let positive =
+                        e.f_cos.min_lane() >= 0.0 && e.pdf.min_lane() >= 0.0 && e.pdf_rev.min_lane() >= 0.0;
                     assert!(finite && positive, "{}: {wo:?} {wi:?} {n_s:?} {e:?}", example.kind);
                 }
                 for s in corners.iter().filter_map(|u| point.sample(*u, mode)) {
@@ -211,8 +215,10 @@ fn degenerate_directions_give_numbers() {
 /// The plain diffuse model has the albedo of its spectrum from everywhere.
 #[test]
 fn diffuse_scatters_its_albedo() {
-    let grey = examples().into_iter().find(|e| e.text.contains("<value>0.37</value>")).expect("among the examples");
-    for case in cases().iter().filter(|c: &&Case| c.kind == grey.kind && c.text == grey.text && c.tilt == 0.0) {
+    let grey =
+        examples().into_iter().find(|e| e.text.contains("<value>0.37</value>")).expect("among the examples");
+    for case in cases().iter().filter(|c: &&Case| c.kind == grey.kind && c.text == grey.text && c.tilt == 0.0)
+    {
         let point = case.point();
         let albedo = sphere(1e-5, |wi| point.eval(vec(wi), Mode::Radiance).f_cos.hero() as f64).value;
         assert!((albedo - 0.37).abs() < 1e-4, "{case}: {albedo}");

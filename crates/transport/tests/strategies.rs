@@ -147,7 +147,7 @@ fn assert_one_expectation(what: &str, text: &str) {
 const EYE: [f64; 3] = [0.0, -4.0, 2.0];
 
 fn over_floor(lamps: &[String]) -> String {
-    scene_file([
+    scene_file(&[
         settings(8, ""),
         flat_camera(EYE, [0.0, 4.0, -2.0], 0.3),
         grey("grey", 0.6),

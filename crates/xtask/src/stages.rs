@@ -35,6 +35,9 @@ pub fn test(arguments: &[String]) -> Outcome {
         report.stage("tidy", || tidy::run(&[]));
         report.stage("lint", || lint(&[]));
         report.stage("tests", || tests(None));
+        for (about, feature) in FURNACES {
+            report.stage(about, || furnace(feature));
+        }
         report.stage("generated files", || generate::run(&["--check".into()]));
         report.stage("documentation", || documents::run(&[]));
     }
@@ -53,6 +56,16 @@ fn tests(filter: Option<&str>) -> Outcome {
 fn cargo_test(selection: &[&str], filter: Option<&str>, python: &Path) -> Outcome {
     let mut command = cargo(&["test", "--no-fail-fast"]);
     run(command.args(selection).args(filter).env(TEST_PYTHON, python))
+}
+
+/// The other lane counts that every run renders a furnace with: nothing may rest on there being four.
+const FURNACES: &[(&str, &str)] = &[("furnace, one lane", "lanes-1"), ("furnace, eight lanes", "lanes-8")];
+
+/// The furnace tests of whole pictures in a kernel built differently. The longest series of bounces is
+/// left to four lanes: it would take minutes to quieten for one.
+fn furnace(feature: &str) -> Outcome {
+    let tests = ["--package", "indigo-render", "--test", "pictures", "--features", feature, "furnace"];
+    run(cargo(&["test"]).args(tests).args(["--", "--skip", "a_grey_ball"]))
 }
 
 /// What a release needs beyond every change: the other lane counts, the double-precision oracle and

@@ -1,6 +1,7 @@
 //! Ctrl-C, and sudden death.
 
 use super::workbench::{Running, Workbench, assert_picture};
+use std::path::Path;
 use std::process::Command;
 use std::time::Duration;
 
@@ -60,7 +61,8 @@ fn sudden_death_leaves_a_whole_picture() {
         running.0.kill().expect("a child of ours");
         running.0.wait().expect("a child of ours");
         assert_picture(&bench.path("a.png"), 300, 225);
-        let left = bench.files().iter().filter(|n| n.ends_with(".tmp")).count();
+        let left =
+            bench.files().iter().filter(|n| Path::new(n).extension().is_some_and(|e| e == "tmp")).count();
         assert!(left <= unfinished + 1, "{:?}", bench.files());
         unfinished = left;
     }

@@ -57,6 +57,6 @@ pub fn background(spectrum: &str) -> String {
 }
 
 /// A whole scene.
-pub fn scene_file<const N: usize>(parts: [String; N]) -> String {
+pub fn scene_file(parts: &[String]) -> String {
     format!("<scene>{}<tonemapping><linear><scale>1</scale></linear></tonemapping></scene>", parts.concat())
 }

@@ -18,7 +18,7 @@ fn plain(light: &str, white_balance: &str, material: Option<&str>) -> Scene {
         diffuse("m", m)
             + "<sphere><center>0 4 0</center><radius>1</radius><material_name>m</material_name></sphere>"
     });
-    scene(&scene_file([
+    scene(&scene_file(&[
         settings(8, ""),
         flat_camera([0.0; 3], [0.0, 1.0, 0.0], 0.1).replace("<aperture_radius>", &white),
         background(light),

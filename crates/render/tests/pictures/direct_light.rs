@@ -25,7 +25,7 @@ fn manual_lamp() -> String {
 
 /// A scene of lamps over a floor, looked at from `eye` towards `target`.
 fn over_floor(lamps: &str, eye: Point, target: Point) -> String {
-    scene_file([
+    scene_file(&[
         settings(8, ""),
         flat_camera(eye, sub(target, eye), NARROW),
         grey("floor", ALBEDO),
@@ -62,7 +62,7 @@ const IDENTITY: [f64; 9] = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
 
 #[test]
 fn the_manuals_lamp_has_the_luminance_of_its_power() {
-    let text = scene_file([settings(8, ""), flat_camera([0.0; 3], [0.0, 0.0, 1.0], 0.02), manual_lamp()]);
+    let text = scene_file(&[settings(8, ""), flat_camera([0.0; 3], [0.0, 0.0, 1.0], 0.02), manual_lamp()]);
     assert_is("lamp", measure(&scene(&text), 16, 64).luminance(), 13_926.057_5, 1e-3);
 }
 
@@ -75,7 +75,7 @@ fn the_manuals_lamp_lights_the_floor_by_the_closed_form() {
 #[test]
 fn a_rectangle_is_black_from_behind_and_does_not_light_upwards() {
     let seen =
-        scene_file([settings(4, ""), flat_camera([0.0, 0.0, 3.0], [0.0, 0.0, -1.0], 0.02), manual_lamp()]);
+        scene_file(&[settings(4, ""), flat_camera([0.0, 0.0, 3.0], [0.0, 0.0, -1.0], 0.02), manual_lamp()]);
     assert_eq!(measure(&scene(&seen), 2, 16).luminance().mean(), 0.0);
     let sunk = manual_lamp().replace("0 0 1.9", "0 0 -1.9");
     for eye in [[3.0, 1.0, 1.2], [3.0, 1.0, -1.2]] {
@@ -127,7 +127,7 @@ fn efficacy_scale_gives_a_mesh_light_its_flux_at_any_size() {
             mesh.text("bulb", "lamp"),
             mesh_light("bulb", &uniform(gain), [0.0, 3.0, 0.0], scale, efficacy),
         ];
-        let text = scene_file([
+        let text = scene_file(&[
             settings(8, ""),
             flat_camera([0.0; 3], [0.0, 1.0, 0.0], 0.1 * scale),
             lamps.concat(),

@@ -20,7 +20,7 @@ const SIDE: usize = 16;
 
 /// Uniform surroundings, seen under ±45 degrees.
 fn surroundings(camera_more: &str, settings_more: &str) -> Scene {
-    scene(&scene_file([
+    scene(&scene_file(&[
         settings(SIDE as u32, &format!("<splat_filter><box/></splat_filter>{settings_more}")),
         camera([0.0; 3], [0.0, 1.0, 0.0], 1.0, camera_more),
         background(&uniform(RADIANCE)),
@@ -108,7 +108,7 @@ fn a_super_sampled_exr_holds_the_same_luminance() {
     let text = settings(SIDE as u32, save)
         .replace("<super_sample_factor>1", "<super_sample_factor>3")
         .replace("<metropolis>", "<downsize_filter><mn_cubic/></downsize_filter><metropolis>");
-    let scene = scene(&scene_file([
+    let scene = scene(&scene_file(&[
         text,
         flat_camera([0.0; 3], [0.0, 1.0, 0.0], 1.0),
         background(&uniform(RADIANCE)),
@@ -158,7 +158,7 @@ fn blur_out_of_focus_has_the_size_of_the_aperture() {
         let place = [-0.25, distance, 0.2];
         let lamp =
             Mesh::disc(radius, 64).placed([1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, -1.0, 0.0], 1.0, [0.0; 3]);
-        let text = scene_file([
+        let text = scene_file(&[
             settings(side, "<splat_filter><box/></splat_filter>"),
             lens,
             grey("black", 0.0),

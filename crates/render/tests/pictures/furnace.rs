@@ -11,7 +11,7 @@ use indigo_scene::Scene;
 const EMITTED: f64 = 3.0e4;
 
 fn room(mesh: &Mesh, albedo: f64, more_settings: &str) -> Scene {
-    scene(&scene_file([
+    scene(&scene_file(&[
         settings(16, more_settings),
         flat_camera([0.13, -0.21, 0.08], [0.3, 1.0, -0.2], 1.0),
         grey("wall", albedo),
@@ -26,7 +26,7 @@ fn assert_luminance(what: &str, measured: &Measured, over_emitted: f64) {
 
 #[test]
 fn a_grey_box_of_albedo_one_half_is_twice_as_bright_as_its_walls_emit() {
-    let measured = measure(&room(&Mesh::cube(1.0), 0.5, ""), 16, 160);
+    let measured = measure(&room(&Mesh::cube(1.0), 0.5, ""), 16, 208);
     assert_luminance("box, albedo 0.5", &measured, 1.0 / (1.0 - 0.5));
 }
 
@@ -43,13 +43,13 @@ fn max_depth_cuts_the_series_after_that_many_scattering_events() {
     for depth in 0..4 {
         scene.transport.max_depth = depth;
         expected += 0.5f64.powi(depth as i32);
-        assert_luminance(&format!("depth {depth}"), &measure(&scene, 16, 24), expected);
+        assert_luminance(&format!("depth {depth}"), &measure(&scene, 16, 112), expected);
     }
 }
 
 #[test]
 fn max_depth_is_read_from_the_settings() {
-    let measured = measure(&room(&Mesh::cube(1.0), 0.5, "<max_depth>2</max_depth>"), 16, 24);
+    let measured = measure(&room(&Mesh::cube(1.0), 0.5, "<max_depth>2</max_depth>"), 16, 112);
     assert_luminance("max_depth 2", &measured, 1.0 + 0.5 + 0.25);
 }
 
@@ -66,14 +66,14 @@ fn a_convex_object_in_uniform_light_shows_its_albedo() {
         ("smoothed mesh", smooth_ball()),
     ];
     for (name, object) in objects {
-        let scene = scene(&scene_file([
+        let scene = scene(&scene_file(&[
             settings(16, ""),
             flat_camera([0.0; 3], [0.0, 1.0, 0.0], 0.1),
             grey("m", 0.35),
             object,
             background(&uniform(EMITTED)),
         ]));
-        let measured = measure(&scene, 16, 24);
+        let measured = measure(&scene, 16, 112);
         assert_luminance(name, &measured, 0.35);
         assert_is("alpha", &measured.xyza[3], 1.0, 1e-6);
     }
@@ -88,12 +88,12 @@ fn smooth_ball() -> String {
 
 #[test]
 fn uniform_surroundings_have_their_own_luminance() {
-    let scene = scene(&scene_file([
+    let scene = scene(&scene_file(&[
         settings(8, ""),
         flat_camera([0.0; 3], [0.0, 1.0, 0.0], 1.0),
         background(&uniform(EMITTED)),
     ]));
-    let measured = measure(&scene, 8, 64);
+    let measured = measure(&scene, 8, 256);
     assert_luminance("background", &measured, 1.0);
     assert_eq!(measured.xyza[3].mean(), 0.0, "the surroundings are not in the foreground");
 }

@@ -22,7 +22,7 @@ fn floor_and_lamp(more: &str) -> Measured {
         "<rectanglelight><pos>0 0 2</pos><width>0.5</width><height>0.5</height><spectrum>{}</spectrum></rectanglelight>",
         uniform(RADIANCE)
     );
-    let text = scene_file([
+    let text = scene_file(&[
         settings(8, ""),
         flat_camera([2.0, 1.0, 1.5], [-2.0, -1.0, -1.5], 0.1),
         grey("floor", 0.6),
@@ -65,7 +65,7 @@ fn light_goes_through_many_invisible_layers() {
 
 #[test]
 fn the_surroundings_shine_through_an_invisible_sphere() {
-    let text = scene_file([
+    let text = scene_file(&[
         settings(8, ""),
         flat_camera([0.0; 3], [0.0, 1.0, 0.0], 0.1),
         null("nothing"),
@@ -82,7 +82,7 @@ fn the_surroundings_shine_through_an_invisible_sphere() {
 fn an_invisible_lamp_adds_its_light_to_what_is_behind() {
     let pane = Mesh::square(1.0, 0.0).placed([1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, -1.0, 0.0], 1.0, [0.0; 3]);
     for (direction, lamp) in [(1.0, 0.0), (-1.0, 1.0)] {
-        let text = scene_file([
+        let text = scene_file(&[
             settings(8, ""),
             flat_camera([0.0, -3.0 * direction, 0.0], [0.0, direction, 0.0], 0.1),
             null("nothing"),
@@ -105,7 +105,7 @@ fn an_invisible_lamp_adds_its_light_to_what_is_behind() {
 fn a_lamp_shines_from_its_front_alone() {
     let pane = Mesh::square(1.0, 0.0);
     for (height, expected) in [(2.0, 2.0 + 0.3), (-2.0, 0.3)] {
-        let text = scene_file([
+        let text = scene_file(&[
             settings(8, ""),
             flat_camera([0.0, 0.0, height], [0.0, 0.0, -height], 0.1),
             grey("paper", 0.3),
@@ -126,7 +126,7 @@ fn a_lamp_shines_from_its_front_alone() {
 #[test]
 fn a_sheet_scatters_on_both_sides() {
     for height in [2.0, -2.0] {
-        let text = scene_file([
+        let text = scene_file(&[
             settings(8, ""),
             flat_camera([0.3, 0.2, height], [-0.3, -0.2, -height], 0.05),
             grey("paper", 0.7),
@@ -143,7 +143,7 @@ fn a_sheet_scatters_on_both_sides() {
 #[test]
 fn a_reflectance_acts_on_each_wavelength() {
     let band = "<peak><peak_min>560</peak_min><peak_width>40</peak_width><base_value>0.1</base_value><peak_value>0.9</peak_value></peak>";
-    let text = scene_file([
+    let text = scene_file(&[
         settings(8, ""),
         flat_camera([0.0; 3], [0.0, 1.0, 0.0], 0.1),
         diffuse("yellow", band),
@@ -167,7 +167,7 @@ fn a_texture_gives_each_place_its_albedo() {
         exr::encode(&LinearImage { width: 2, height: 2, pixels }, &Metadata::default()).expect("a picture");
     for (row, column) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
         let at = [f64::from(column) - 0.5, 0.5 - f64::from(row)];
-        let text = scene_file([
+        let text = scene_file(&[
             settings(4, ""),
             flat_camera([at[0], at[1], 2.0], [0.0, 0.0, -1.0], 5e-5),
             "<material><name>painted</name><diffuse><albedo_texture><uv_set>albedo</uv_set><path>four.exr</path>\
@@ -191,7 +191,7 @@ fn a_texture_gives_each_place_its_albedo() {
 /// A small sphere in the middle of a floor's light is a shadow of exactly its solid angle.
 #[test]
 fn a_black_sphere_hides_the_sky_behind_it() {
-    let text = scene_file([
+    let text = scene_file(&[
         settings(8, ""),
         flat_camera([3.0, 0.0, 0.5], [-3.0, 0.0, -0.5], 2e-3),
         grey("floor", 0.5),
