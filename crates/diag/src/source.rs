@@ -1,6 +1,6 @@
 //! Files, and places in them.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// A file known to a [`SourceMap`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -60,6 +60,20 @@ struct Source {
     name: String,
     text: Arc<[u8]>,
     included_from: Option<Span>,
+    /// Offsets of the bytes after each newline, made when the first position is asked for.
+    line_starts: OnceLock<Vec<usize>>,
+}
+
+impl Source {
+    /// How many lines begin before or at a byte, less one, and where the last of them begins.
+    fn line_of(&self, byte: usize) -> (usize, usize) {
+        let starts = self.line_starts.get_or_init(|| {
+            let newlines = self.text.iter().enumerate().filter(|&(_, &b)| b == b'\n');
+            newlines.map(|(i, _)| i + 1).collect()
+        });
+        let before = starts.partition_point(|&s| s <= byte);
+        (before, if before == 0 { 0 } else { starts[before - 1] })
+    }
 }
 
 /// The files that were read, by [`SourceId`].
@@ -72,7 +86,7 @@ impl SourceMap {
     /// Adds a file; `included_from` is the place that asked for it. `None` when 65,535 files are known already.
     pub fn add(&mut self, name: &str, text: Arc<[u8]>, included_from: Option<Span>) -> Option<SourceId> {
         let id = SourceId(u16::try_from(self.sources.len()).ok()?);
-        self.sources.push(Source { name: name.to_owned(), text, included_from });
+        self.sources.push(Source { name: name.to_owned(), text, included_from, line_starts: OnceLock::new() });
         Some(id)
     }
 
@@ -105,18 +119,20 @@ impl SourceMap {
     pub fn position(&self, span: Span) -> Position {
         let text = self.text(span.source);
         let start = (span.start as usize).min(text.len());
-        let line_start = text[..start].iter().rposition(|&b| b == b'\n').map_or(0, |i| i + 1);
-        Position {
-            line: 1 + text[..line_start].iter().filter(|&&b| b == b'\n').count(),
-            column: 1 + characters(&text[line_start..start]),
-        }
+        let (line, line_start) = self.line_start(span.source, start);
+        Position { line: line + 1, column: 1 + characters(&text[line_start..start]) }
+    }
+
+    /// Number, from 0, of the line of a byte, and the offset at which it begins.
+    fn line_start(&self, id: SourceId, byte: usize) -> (usize, usize) {
+        self.sources.get(usize::from(id.0)).map_or((0, 0), |s| s.line_of(byte))
     }
 
     /// The line in which a span starts, and the byte range of the span within it.
     pub fn line(&self, span: Span) -> (String, std::ops::Range<usize>) {
         let text = self.text(span.source);
         let start = (span.start as usize).min(text.len());
-        let line_start = text[..start].iter().rposition(|&b| b == b'\n').map_or(0, |i| i + 1);
+        let (_, line_start) = self.line_start(span.source, start);
         let line_end = text[start..].iter().position(|&b| b == b'\n').map_or(text.len(), |i| start + i);
         let end = (start + usize::from(span.len)).min(line_end);
         let before = characters(&text[line_start..start]);

@@ -13,6 +13,8 @@ indigo_decl::codes! {
     NO_TONEMAPPING = "W0305";
     /// A scene without light.
     NO_LIGHT = "W0306";
+    /// The normal of a plane is not of length 1.
+    NOT_UNIT = "W0307";
     /// A name that nothing defines.
     UNKNOWN_NAME = "E0301";
     /// A file that cannot be had.

@@ -12,8 +12,10 @@ struct Generated {
     example: &'static str,
 }
 
-const GENERATED: &[Generated] =
-    &[Generated { path: "docs/manual/scene-format.md", package: "indigo-scene", example: "reference" }];
+const GENERATED: &[Generated] = &[
+    Generated { path: "docs/manual/scene-format.md", package: "indigo-scene", example: "reference" },
+    Generated { path: "docs/manual/errors.md", package: "indigo-scene", example: "errors" },
+];
 
 /// Writes every generated file, or with `--check` only says which would change.
 pub fn run(arguments: &[String]) -> Outcome {

@@ -44,7 +44,7 @@ pub(super) fn parameters(
     if let Some(film) = film {
         warn_of_aspect(node, aspect, film, sink);
     }
-    aperture(node, settings, sink);
+    aperture(node, settings);
     if ThinLens::new(&lens).is_none() {
         sink.push(
             Diagnostic::error(codes::SINGULAR, node.span_of("up"), "<up> and <forwards> span no plane")
@@ -71,10 +71,15 @@ fn warn_of_aspect(node: &Node, aspect: f64, film: &FilmSettings, sink: &mut Sink
     }
 }
 
-/// The shape of the aperture and what hangs on its diffraction.
-fn aperture(node: &Node, settings: &Settings, sink: &mut Sink) {
+/// Reads what the settings say of cameras, so that a scene without one has no further errors.
+pub(super) fn diffraction(settings: &Settings, sink: &mut Sink) {
     settings.refuse_true("aperture_diffraction", Some("the picture has no diffraction glare"), sink);
     settings.disregard("post_process_diffraction");
+    settings.disregard("vignetting");
+}
+
+/// The shape of the aperture.
+fn aperture(node: &Node, settings: &Settings) {
     if !settings.bool("aperture_diffraction") || settings.origin("aperture_diffraction") == Origin::Default {
         // An obstacle map has an effect on diffraction alone.
         node.disregard_field("obstacle_map");

@@ -11,6 +11,9 @@ use indigo_diag::Diagnostic;
 use indigo_geom::Object;
 use indigo_math::Vec3d;
 
+/// How far from 1 the length of a plane's normal may be: decimal rounding of exporters.
+const UNIT_TOLERANCE: f64 = 1e-3;
+
 /// All objects in render space.
 pub(super) struct Geometry {
     /// The camera's position: the origin of render space.
@@ -85,10 +88,20 @@ impl Geometry {
     fn add_plane(&mut self, plane: &Node, materials: &mut MaterialTable, context: &mut Context) {
         let normal = Vec3d::from(plane.vec3("normal"));
         if let Some(unit) = normal.try_normalized() {
-            // The manual asks for unit length; `dist` is along the unit normal in any case.
+            if (normal.length() - 1.0).abs() > UNIT_TOLERANCE {
+                context.sink.push(
+                    Diagnostic::warning(
+                        codes::NOT_UNIT,
+                        plane.span_of("normal"),
+                        "the normal of the plane is not of length 1; <dist> is taken along the unit normal",
+                    )
+                    .expected(format!("its length is {}", normal.length())),
+                );
+            }
             let object = Object::Plane { normal: unit, dist: plane.real("dist") };
             self.add_shape(plane, object, materials, context);
         } else {
+            plane.disregard();
             context.sink.push(
                 Diagnostic::error(
                     codes::SINGULAR,

@@ -64,12 +64,15 @@ impl Lights {
     }
 
     fn add_area(&mut self, node: &Node, corners: &[[Vec3d; 3]], sink: &mut Sink) {
+        let errors_before = sink.error_count();
         let spectrum = node.node("spectrum").map_or(Spectrum::BLACK, |s| read::emission(s, sink));
         let mut light = AreaLight::new(spectrum, corners);
         if let Some(scale) = node.node("efficacy_scale") {
             let (power, efficacy) = (scale.real("power_drawn"), scale.real("overall_luminous_efficacy"));
             match photometry::with_efficacy(&light.radiance, power, efficacy, light.area()) {
                 Some(scaled) => light.radiance = scaled,
+                // A spectrum that is wrong by itself needs no second complaint.
+                None if sink.error_count() > errors_before => {}
                 None => sink.push(
                     Diagnostic::error(
                         codes::NO_FLUX,

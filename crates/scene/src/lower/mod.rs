@@ -76,6 +76,7 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
     let transport = transport(settings, context.sink);
     let film = picture::film(settings, context.sink);
     let output = picture::output(settings, context.sink, path);
+    camera::diffraction(settings, context.sink);
     let camera_node = find_camera(root, context.sink);
     let origin = camera_node.map_or(Vec3d::ZERO, |c| c.vec3("pos").into());
     let camera = camera_node.and_then(|c| camera::parameters(c, settings, film.as_ref(), context.sink));

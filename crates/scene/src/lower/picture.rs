@@ -20,14 +20,18 @@ pub(super) fn film(settings: &Settings, sink: &mut Sink) -> Option<FilmSettings>
     let filter = filter(settings, "splat_filter", Filter::Gaussian, sink);
     let size = FilmSize::new(width, height, dimension("super_sample_factor"))
         .map_err(|e| {
-            sink.push(Diagnostic::error(codes::PICTURE_SIZE, settings.span_of("width"), e.to_string()))
+            sink.push(Diagnostic::error(codes::PICTURE_SIZE, settings.span_of("width"), e.to_string()));
         })
         .ok()?;
     let region =
         region(settings, size, sink).map(|r| [[r.start()[0], r.end()[0]], [r.start()[1], r.end()[1]]]);
     let filter = FilmFilter::new(filter, size)
         .map_err(|e| {
-            sink.push(Diagnostic::error(codes::PICTURE_SIZE, settings.span_of("splat_filter"), e.to_string()))
+            sink.push(Diagnostic::error(
+                codes::PICTURE_SIZE,
+                settings.span_of("splat_filter"),
+                e.to_string(),
+            ));
         })
         .ok()?;
     Some(FilmSettings { size, filter, region })

@@ -1,0 +1,285 @@
+//! What lowering says about scenes that bind well but cannot be rendered as they are: each code with its
+//! place, and settings with the layer that they come from.
+
+use indigo_decl::{ResolveError, Resolved, Resolver};
+use indigo_diag::Severity;
+use indigo_geom::NoStore;
+use indigo_igs::Limits;
+use indigo_scene::{LoadOptions, Loaded, Origin, load};
+
+/// A scene, and beside it a broken mesh, a broken picture and settings.
+struct Memory(String);
+
+impl Resolver for Memory {
+    fn read(&self, path: &str, _from: &str) -> Result<Resolved, ResolveError> {
+        let bytes: &[u8] = match path {
+            "scene.igs" => self.0.as_bytes(),
+            "broken.obj" => b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n",
+            "flat.obj" => b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 1 1\n",
+            "broken.png" => b"not a picture",
+            "inifile.xml" => {
+                b"<settings><width>40</width><height>30</height><max_depth>7</max_depth></settings>"
+            }
+            _ => return Err(ResolveError::NotFound { looked: vec![path.to_owned()] }),
+        };
+        Ok(Resolved { path: path.to_owned(), bytes: bytes.into() })
+    }
+}
+
+/// The first lines of every scene here: complete, and without a complaint.
+const HEAD: &str = "<scene>
+<renderer_settings><width>64</width><height>48</height><bidirectional>false</bidirectional><metropolis>false</metropolis><aperture_diffraction>false</aperture_diffraction></renderer_settings>
+<tonemapping><linear><scale>1</scale></linear></tonemapping>
+<background><spectrum><uniform><value>1</value></uniform></spectrum></background>
+<material><name>white</name><diffuse><albedo_spectrum><uniform><value>0.5</value></uniform></albedo_spectrum></diffuse></material>
+";
+const CAMERA: &str = "<camera><pos>0 -2 1</pos><up>0 0 1</up><forwards>0 1 0</forwards><aperture_radius>0.001</aperture_radius><focus_distance>3</focus_distance><aspect_ratio>1.3333</aspect_ratio><sensor_width>0.036</sensor_width><lens_sensor_dist>0.02</lens_sensor_dist></camera>\n";
+const MESH: &str = "<mesh><name>tri</name><embedded><vertex pos=\"0 0 0\"/><vertex pos=\"1 0 0\"/><vertex pos=\"0 1 0\"/><triangle_set><material_name>white</material_name><tri>0 1 2</tri></triangle_set></embedded></mesh>\n";
+/// The line after `HEAD`.
+const LINE: usize = 6;
+
+fn options(resolver: &Memory) -> LoadOptions<'_> {
+    LoadOptions {
+        resolver,
+        trees: &NoStore,
+        inifile: None,
+        overrides: &[],
+        limits: Limits::default(),
+        check_only: false,
+    }
+}
+
+fn loaded(text: &str) -> Loaded {
+    let memory = Memory(text.to_owned());
+    load("scene.igs", &options(&memory))
+}
+
+/// Codes with line and column of everything found in `HEAD` + `rest`.
+fn found(rest: &str) -> Vec<String> {
+    let l = loaded(&format!("{HEAD}{rest}</scene>"));
+    l.sink
+        .diagnostics()
+        .iter()
+        .map(|d| {
+            let place = d.span.map(|s| l.sources.position(s));
+            place.map_or_else(|| d.code.to_owned(), |p| format!("{}:{}:{}", p.line, p.column, d.code))
+        })
+        .collect()
+}
+
+/// Expects exactly one finding in a line after the head, at the text `at`, with a code.
+fn expect_one(line: &str, at: &str, code: &str) {
+    let column = line.find(at).expect("the text is in the line") + 1;
+    assert_eq!(found(&format!("{line}\n{CAMERA}{MESH}")), [format!("{LINE}:{column}:{code}")], "{line}");
+}
+
+#[test]
+fn the_head_is_without_a_complaint() {
+    assert_eq!(found(CAMERA), Vec::<String>::new());
+}
+
+#[test]
+fn names_and_files_that_are_not_there() {
+    expect_one(
+        "<sphere><center>0 0 0</center><radius>1</radius><material_name>whiet</material_name></sphere>",
+        "whiet",
+        "E0301",
+    );
+    expect_one("<model><pos>0 0 0</pos><scale>1</scale><mesh_name>trii</mesh_name></model>", "trii", "E0301");
+    let model = "<model><pos>0 0 0</pos><scale>1</scale><mesh_name>m</mesh_name></model>";
+    let mesh =
+        |path: &str| format!("<mesh><name>m</name><external><path>{path}</path></external></mesh>{model}");
+    expect_one(&mesh("nowhere.obj"), "nowhere.obj", "E0302");
+    expect_one(&mesh("broken.obj"), "broken.obj", "E0303");
+}
+
+#[test]
+fn a_mesh_file_says_which_of_its_triangles_were_dropped_and_which_material_is_missing() {
+    let line = "<mesh><name>m</name><external><path>flat.obj</path></external></mesh><model><pos>0 0 0</pos><scale>1</scale><mesh_name>m</mesh_name></model>";
+    let column = line.find("flat.obj").unwrap() + 1;
+    let codes = found(&format!("{line}\n{CAMERA}"));
+    // No usemtl (a note), a triangle without area (a note), and no material named default.
+    let expected = ["W0303", "W0303", "E0301"].map(|c| format!("{LINE}:{column}:{c}"));
+    assert_eq!(codes, expected);
+}
+
+#[test]
+fn textures_need_their_picture_and_their_coordinates() {
+    let material = |path: &str, set: &str| {
+        format!(
+            "<material><name>t</name><diffuse><albedo_texture><uv_set>{set}</uv_set><path>{path}</path></albedo_texture></diffuse></material>"
+        )
+    };
+    let sphere = "<sphere><center>0 0 0</center><radius>1</radius><material_name>t</material_name></sphere>";
+    expect_one(&format!("{}{sphere}", material("broken.png", "any")), "broken.png", "E0303");
+    expect_one(&format!("{}{sphere}", material("none.png", "any")), "none.png", "E0302");
+    // On a mesh without uv sets the name is an error, too.
+    let mesh = MESH.replace("white", "t").replace("tri<", "mt<");
+    let model = "<model><pos>0 0 0</pos><scale>1</scale><mesh_name>mt</mesh_name></model>";
+    let line = format!("{}{}{model}", material("broken.png", "albedo"), mesh.trim());
+    let codes = found(&format!("{line}\n{CAMERA}"));
+    let column = line.find("albedo</uv_set>").unwrap() + 1;
+    assert!(codes.contains(&format!("{LINE}:{column}:E0307")), "{codes:?}");
+}
+
+#[test]
+fn a_texture_that_nothing_uses_is_not_even_looked_for() {
+    let line = "<material><name>t</name><diffuse><albedo_texture><path>none.png</path></albedo_texture></diffuse></material>";
+    assert_eq!(found(&format!("{line}{CAMERA}")), Vec::<String>::new());
+}
+
+#[test]
+fn numbers_that_make_no_space() {
+    let singular = "<model><pos>0 0 0</pos><scale>1</scale><rotation><matrix>1 2 3 2 4 6 0 0 1</matrix></rotation><mesh_name>tri</mesh_name></model>";
+    expect_one(singular, "1 2 3", "E0304");
+    expect_one(
+        "<plane><normal>0 0 0</normal><dist>0</dist><material_name>white</material_name></plane>",
+        "0 0 0",
+        "E0304",
+    );
+    expect_one(
+        "<plane><normal>0 0 2</normal><dist>0</dist><material_name>white</material_name></plane>",
+        "0 0 2",
+        "W0307",
+    );
+    let camera = CAMERA.replace("<up>0 0 1", "<up>0 3 0");
+    let column = camera.find("0 3 0").unwrap() + 1;
+    assert_eq!(found(&camera), [format!("{LINE}:{column}:E0304")]);
+}
+
+#[test]
+fn cameras() {
+    assert_eq!(found(""), ["1:1:E0305"]);
+    let stretched = CAMERA.replace("1.3333", "1.5");
+    let column = stretched.find("1.5").unwrap() + 1;
+    assert_eq!(found(&stretched), [format!("{LINE}:{column}:W0304")]);
+    let white = CAMERA.replace("</camera>", "<white_balance>D66</white_balance></camera>");
+    let column = white.find("D66").unwrap() + 1;
+    assert_eq!(found(&white), [format!("{LINE}:{column}:E0309")]);
+}
+
+#[test]
+fn lamps() {
+    let lamp = |spectrum: &str| {
+        format!(
+            "<rectanglelight><pos>0 0 2</pos><width>1</width><height>1</height><spectrum>{spectrum}</spectrum><efficacy_scale><power_drawn>1</power_drawn><overall_luminous_efficacy>1</overall_luminous_efficacy></efficacy_scale></rectanglelight>"
+        )
+    };
+    expect_one(&lamp("<uniform><value>0</value></uniform>"), "<efficacy_scale>", "E0308");
+    expect_one(&lamp("<uniform><value>-2</value></uniform>"), "-2", "E0203");
+    let table = "<regular_tabulated><start_wavelength>4e-7</start_wavelength><end_wavelength>7e-7</end_wavelength><num_values>3</num_values><values>1 2</values></regular_tabulated>";
+    expect_one(&lamp(table), "1 2<", "E0203");
+}
+
+#[test]
+fn whatever_is_not_rendered_yet_is_named_where_it_stands() {
+    expect_one("<skylight><sundir>0 0 1</sundir><turbidity>2</turbidity></skylight>", "<skylight>", "E0205");
+    expect_one(
+        "<exit_portal><pos>0 0 0</pos><scale>1</scale><mesh_name>tri</mesh_name></exit_portal>",
+        "<exit_portal>",
+        "E0205",
+    );
+    let used = "<sphere><center>0 0 0</center><radius>1</radius><material_name>p</material_name></sphere>";
+    let phong = format!(
+        "<material><name>p</name><phong><ior>1.5</ior><exponent>9</exponent></phong></material>{used}"
+    );
+    expect_one(&phong, "<phong>", "E0205");
+    let bump = format!(
+        "<material><name>p</name><diffuse><albedo_spectrum><uniform><value>0</value></uniform></albedo_spectrum><bump_map><path>x.png</path></bump_map></diffuse></material>{used}"
+    );
+    expect_one(&bump, "<bump_map>", "E0205");
+    for (element, at) in [("<bloom><weight>0.1</weight><radius>0.1</radius></bloom>", "<bloom>")] {
+        let camera = CAMERA.replace("</camera>", &format!("{element}</camera>"));
+        let column = camera.find(at).unwrap() + 1;
+        assert_eq!(found(&camera), ["W0104", "E0205"].map(|code| format!("{LINE}:{column}:{code}")));
+    }
+}
+
+#[test]
+fn switches_are_refused_by_name_but_defaults_only_warned_of() {
+    let with = |from: &str, to: &str| {
+        let l = loaded(&format!("{HEAD}{CAMERA}</scene>").replace(from, to));
+        let summary: Vec<(Severity, &str)> =
+            l.sink.diagnostics().iter().map(|d| (d.severity, d.code)).collect();
+        summary
+    };
+    let bidirectional = "<bidirectional>false</bidirectional>";
+    assert_eq!(with(bidirectional, ""), [(Severity::Warning, "W0301")]);
+    assert_eq!(with(bidirectional, "<bidirectional>true</bidirectional>"), [(Severity::Error, "E0205")]);
+    for setting in ["hybrid", "save_igi", "watermark"] {
+        let on = format!("{bidirectional}<{setting}>true</{setting}>");
+        assert_eq!(with(bidirectional, &on), [(Severity::Error, "E0205")], "{setting}");
+        assert_eq!(with(bidirectional, &on.replace("true", "false")), [], "{setting}");
+    }
+    let plane =
+        "<plane><normal>0 0 1</normal><dist>0</dist><material_name>white</material_name></plane></scene>";
+    let on = "<bidirectional>true</bidirectional>";
+    let l = loaded(&format!("{HEAD}{CAMERA}{plane}").replace(bidirectional, on));
+    assert!(
+        l.sink
+            .diagnostics()
+            .iter()
+            .any(|d| d.code == "E0311" && d.hint.as_ref().is_some_and(|h| h.contains("mesh")))
+    );
+}
+
+#[test]
+fn pictures_of_impossible_size() {
+    let codes = |settings: &str| {
+        let l = loaded(&format!("{HEAD}{CAMERA}</scene>").replace("<width>64</width>", settings));
+        l.sink.diagnostics().iter().map(|d| d.code).collect::<Vec<_>>()
+    };
+    assert!(codes("<width>2000000000</width>").contains(&"E0310"));
+    let region = |x2: i32| {
+        format!(
+            "<width>64</width><render_region><x1>10</x1><y1>0</y1><x2>{x2}</x2><y2>9</y2></render_region>"
+        )
+    };
+    assert_eq!(codes(&region(65)), ["E0310"]);
+    assert_eq!(codes(&region(10)), ["E0310"]);
+    assert_eq!(codes(&region(11)), Vec::<&str>::new());
+}
+
+#[test]
+fn names_defined_twice_and_scenes_without_light_or_tone_mapping() {
+    let white = "<material><name>white</name><null_material/></material>";
+    expect_one(white, "white", "W0302");
+    let bare = format!("{HEAD}{CAMERA}</scene>");
+    let background = "<background><spectrum><uniform><value>1</value></uniform></spectrum></background>\n";
+    let codes = |text: &str| loaded(text).sink.diagnostics().iter().map(|d| d.code).collect::<Vec<_>>();
+    assert_eq!(codes(&bare.replace(background, "")), ["W0306"]);
+    assert_eq!(
+        codes(&bare.replace("<tonemapping><linear><scale>1</scale></linear></tonemapping>\n", "")),
+        ["W0305"]
+    );
+}
+
+#[test]
+fn settings_come_from_the_highest_layer_that_gives_them() {
+    let memory = Memory(format!("{HEAD}{CAMERA}</scene>").replace("<width>64</width>", ""));
+    let overrides = [("height", "31".to_owned()), ("halt_time", "2.5".to_owned())];
+    let options = LoadOptions { inifile: Some("inifile.xml"), overrides: &overrides, ..options(&memory) };
+    let loaded = load("scene.igs", &options);
+    let listing = loaded.settings.as_ref().unwrap().listing();
+    let line =
+        |name: &str| listing.iter().find(|l| l.name == name).map(|l| (l.value.as_str(), l.origin)).unwrap();
+    assert_eq!(line("width"), ("40", Origin::IniFile));
+    assert_eq!(line("height"), ("31", Origin::CommandLine));
+    assert_eq!(line("max_depth"), ("7", Origin::IniFile));
+    assert_eq!(line("metropolis"), ("false", Origin::Scene));
+    assert_eq!(line("super_sample_factor"), ("2", Origin::Default));
+    let scene = loaded.scene.expect("nothing is wrong with it");
+    assert_eq!((scene.film.size.width(), scene.film.size.height()), (40, 31));
+    assert_eq!(scene.transport.max_depth, 7);
+    assert_eq!(scene.output.halt_time, Some(2.5));
+}
+
+#[test]
+fn a_bad_command_line_value_has_a_place_too() {
+    let memory = Memory(format!("{HEAD}{CAMERA}</scene>"));
+    let overrides = [("halt_time", "soon".to_owned())];
+    let loaded = load("scene.igs", &LoadOptions { overrides: &overrides, ..options(&memory) });
+    let d = &loaded.sink.diagnostics()[0];
+    assert_eq!((d.code, loaded.sources.name(d.span.unwrap().source)), ("E0202", "command line"));
+    assert!(loaded.scene.is_none());
+}
