@@ -86,7 +86,12 @@ impl SourceMap {
     /// Adds a file; `included_from` is the place that asked for it. `None` when 65,535 files are known already.
     pub fn add(&mut self, name: &str, text: Arc<[u8]>, included_from: Option<Span>) -> Option<SourceId> {
         let id = SourceId(u16::try_from(self.sources.len()).ok()?);
-        self.sources.push(Source { name: name.to_owned(), text, included_from, line_starts: OnceLock::new() });
+        self.sources.push(Source {
+            name: name.to_owned(),
+            text,
+            included_from,
+            line_starts: OnceLock::new(),
+        });
         Some(id)
     }
 
