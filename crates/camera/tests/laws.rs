@@ -1,7 +1,7 @@
 //! The lens is sampled evenly, and the film is a faithful map of directions.
 
 use indigo_camera::{ThinLens, ThinLensParameters};
-use indigo_math::{Real, Vec2, Vec3, Vec3d};
+use indigo_math::{Float, Real, Vec2, Vec3, Vec3d};
 use indigo_testkit::chi2::{Chi2, Domain};
 use indigo_testkit::rng::Rng;
 use indigo_testkit::stats::Moments;
@@ -31,7 +31,7 @@ fn random(rng: &mut Rng) -> Vec2 {
 /// Looking along x with z up, the picture's right is -y.
 fn on_disk(at: Vec3, radius: f64) -> [f64; 3] {
     let offset = at - POSITION;
-    [-f64::from(offset.y as f32) / radius, f64::from(offset.z as f32) / radius, 0.0]
+    [-offset.y.to_f64() / radius, offset.z.to_f64() / radius, 0.0]
 }
 
 /// False-alarm probability 1e-4.
@@ -60,8 +60,8 @@ fn the_blur_disc_grows_with_the_distance_from_the_plane_of_focus() {
             let t = distance as Real / ray.direction.x;
             let p = ray.origin + ray.direction * t - POSITION;
             // The film point lies at 0.25 · 0.036 / 0.03 = 0.3 to the right.
-            right.add((-f64::from(p.y as f32) - 0.3 * distance).powi(2));
-            up.add(f64::from(p.z as f32).powi(2));
+            right.add((-p.y.to_f64() - 0.3 * distance).powi(2));
+            up.add(p.z.to_f64().powi(2));
         }
         let disc = radius * (1.0 - distance / focus).abs();
         for squares in [right, up] {
@@ -92,8 +92,8 @@ fn film_positions_map_to_tangents() {
     let (mut across, mut along) = (Moments::default(), Moments::default());
     for _ in 0..100_000 {
         let d = lens.ray(random(&mut rng), Vec2::new(0.5, 0.5)).direction;
-        across.add(f64::from((d.y / d.x) as f32).powi(2));
-        along.add(f64::from((d.z / d.x) as f32).powi(2));
+        across.add((d.y / d.x).to_f64().powi(2));
+        along.add((d.z / d.x).to_f64().powi(2));
     }
     for (what, m, width) in [("width", across, 1.2f64), ("height", along, 0.8)] {
         let test = mean_against(&m, width * width / 12.0).at(5e-5);

@@ -168,13 +168,13 @@ fn blur_out_of_focus_has_the_size_of_the_aperture() {
         let scene = scene(&text);
         let mut moments = [Moments::default(); 4];
         for seed in 0..10 {
-            for (m, v) in moments.iter_mut().zip(centroid_and_variance(&scene, seed, 32)) {
+            for (m, v) in moments.iter_mut().zip(centroid_and_variance(&scene, seed, 96)) {
                 m.add(v);
             }
         }
         let pixels_per_tangent = f64::from(side) / (2.0 * tangent);
         let sharp = radius / distance * pixels_per_tangent;
-        let blur = aperture * (1.0 / distance - 1.0 / focus as f64).abs() * pixels_per_tangent;
+        let blur = aperture * (1.0 / distance - 1.0 / focus).abs() * pixels_per_tangent;
         let variance = 0.25 * (sharp * sharp + blur * blur) + 1.0 / 12.0;
         // An inscribed 64-gon has 0.16% less area and spread than its circle.
         let what = |axis| format!("distance {distance}, focus {focus}, {axis}");

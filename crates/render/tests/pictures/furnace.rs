@@ -32,7 +32,7 @@ fn a_grey_box_of_albedo_one_half_is_twice_as_bright_as_its_walls_emit() {
 
 #[test]
 fn a_grey_ball_of_albedo_four_fifths_is_five_times_as_bright() {
-    let measured = measure(&room(&Mesh::ball(2), 0.8, ""), 24, 640);
+    let measured = measure(&room(&Mesh::ball(2), 0.8, ""), 24, 768);
     assert_luminance("ball, albedo 0.8", &measured, 1.0 / (1.0 - 0.8));
 }
 
