@@ -29,19 +29,19 @@ def smooth_normals(points, faces):
 
 
 def write_ply(name, points, faces):
-    """Binary little-endian PLY of positions, smooth normals and polygons."""
+    """Binary little-endian PLY of at most 65536 positions, smooth normals and polygons."""
     head = (
         f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points)}\n"
         "property float x\nproperty float y\nproperty float z\n"
         "property float nx\nproperty float ny\nproperty float nz\n"
-        f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n"
+        f"element face {len(faces)}\nproperty list uchar ushort vertex_indices\nend_header\n"
     )
     with open(ROOT / "models" / name, "wb") as file:
         file.write(head.encode())
         for point, normal in zip(points, smooth_normals(points, faces)):
             file.write(struct.pack("<6f", *point, *normal))
         for face in faces:
-            file.write(struct.pack(f"<B{len(face)}i", len(face), *face))
+            file.write(struct.pack(f"<B{len(face)}H", len(face), *face))
 
 
 def write_obj(name, material, points, faces):
@@ -163,8 +163,8 @@ ROCKS = [(-0.95, 0.45, 0.62), (1.15, -0.35, 0.36), (1.35, 1.45, 0.27)]
 
 
 def sand_height(x, y):
-    """Raked sand: straight furrows, and five rings round each rock."""
-    pitch, depth, rings = 0.14, 0.016, 5
+    """Raked sand: straight furrows, and four rings round each rock."""
+    pitch, depth, rings = 0.17, 0.019, 4
     nearest = min(math.hypot(x - cx, y - cy) - radius for cx, cy, radius in ROCKS)
     phase = nearest if nearest < rings * pitch else y
     wave = 0.5 + 0.5 * math.cos(2 * math.pi * phase / pitch)
@@ -174,7 +174,7 @@ def sand_height(x, y):
 
 def make_sand():
     """The sand garden: 6 m x 5 m of raked sand."""
-    step, columns, rows = 0.025, 241, 201
+    step, columns, rows = 0.03125, 193, 161
     points = []
     for row in range(rows):
         for column in range(columns):
