@@ -6,7 +6,7 @@ use crate::object::Object;
 use crate::ray::{Hit, Ray};
 use crate::shapes::{hit_plane, hit_sphere};
 use crate::store::TreeStore;
-use crate::traverse::{Kernel, KernelRay, NoSpecials, Portable, RawHit, Specials, View};
+use crate::traverse::{Kernel, NoSpecials, Portable, RawHit, Specials, View};
 use crate::trees::Trees;
 use crate::wide::Child;
 use indigo_math::{Bounds3, Float, Real, Transform, Vec3};
@@ -185,7 +185,7 @@ impl Accel {
 
     #[inline(always)]
     fn view(&self) -> View<'_> {
-        View { nodes: self.trees.nodes.items(), blocks: self.trees.blocks.items() }
+        View { nodes: &self.trees.nodes, blocks: &self.trees.blocks }
     }
 
     #[inline(always)]
@@ -213,14 +213,13 @@ impl Accel {
 
     #[inline(always)]
     fn walk<K: Kernel, const ANY: bool>(&self, ray: &Ray, hit: &mut RawHit<K::Scalar>) -> bool {
-        let kernel_ray = to_kernel(ray);
         if self.trees.root == Child::NONE {
             false
         } else if self.trees.specials.is_empty() {
-            K::walk::<ANY, _>(self.view(), self.trees.root, &kernel_ray, hit, &NoSpecials)
+            K::walk::<ANY, _>(self.view(), self.trees.root, ray, hit, &NoSpecials)
         } else {
             let specials = SceneSpecials::<K> { accel: self, ray, kernel: PhantomData };
-            K::walk::<ANY, _>(self.view(), self.trees.root, &kernel_ray, hit, &specials)
+            K::walk::<ANY, _>(self.view(), self.trees.root, ray, hit, &specials)
         }
     }
 
@@ -258,16 +257,6 @@ fn check(meshes: &[TriangleMesh], objects: &[Object]) -> Result<(), BuildError> 
         }
     }
     Ok(())
-}
-
-#[inline(always)]
-fn to_kernel<T: Float>(ray: &Ray) -> KernelRay<T> {
-    KernelRay {
-        o: ray.o.cast().to_array(),
-        d: ray.d.cast().to_array(),
-        // Adding 0 makes a negative zero positive: distances are compared by their bits.
-        t_min: T::from_f64(ray.t_min.max(0.0).to_f64() + 0.0),
-    }
 }
 
 fn set_shape_hit<T: Float>(hit: &mut RawHit<T>, t: Option<Real>, object: u32) -> bool {
@@ -312,10 +301,10 @@ impl<K: Kernel> Specials<K::Scalar> for SceneSpecials<'_, K> {
 }
 
 /// The ray in an instance's own space, with the same parameter.
-fn instance_ray<T: Float>(ray: &Ray, transform: &Transform) -> KernelRay<T> {
-    KernelRay {
-        o: transform.inverse_point(ray.o.cast::<f64>()).cast().to_array(),
-        d: transform.inverse_vector(ray.d.cast::<f64>()).cast().to_array(),
-        ..to_kernel(ray)
+fn instance_ray(ray: &Ray, transform: &Transform) -> Ray {
+    Ray {
+        o: transform.inverse_point(ray.o.cast::<f64>()).cast(),
+        d: transform.inverse_vector(ray.d.cast::<f64>()).cast(),
+        ..*ray
     }
 }

@@ -33,8 +33,11 @@ impl Ray {
     /// Whether the ray can hit anything at all.
     #[inline]
     pub(crate) fn is_sound(&self) -> bool {
-        let directed = self.d.x != 0.0 || self.d.y != 0.0 || self.d.z != 0.0;
-        self.o.is_finite() && self.d.is_finite() && directed && self.t_max > self.t_min
+        let (o, d) = (self.o, self.d);
+        // 0 times infinity or NaN is NaN, and so is every sum with it.
+        let zero = (o.x * 0.0 + o.y * 0.0) + (o.z * 0.0 + d.x * 0.0) + (d.y * 0.0 + d.z * 0.0);
+        let directed = d.x != 0.0 || d.y != 0.0 || d.z != 0.0;
+        zero == 0.0 && directed && self.t_max > self.t_min
     }
 }
 

@@ -4,7 +4,7 @@ use crate::accel::{BuildError, BuildOptions, Stats};
 use crate::cache::load_or_build;
 use crate::mesh::TriangleMesh;
 use crate::object::Object;
-use crate::pages::Pages;
+use crate::pages::in_huge_pages;
 use crate::soup::{Soup, bake};
 use crate::store::TreeStore;
 use crate::top::{TopItem, build_top, open, sphere_box, transformed_box};
@@ -22,9 +22,9 @@ pub(crate) struct Special {
 /// All trees behind each other.
 pub(crate) struct Trees {
     /// Nodes of all trees, the upper one last.
-    pub nodes: Pages<Node>,
+    pub nodes: Vec<Node>,
     /// Triangles of all trees.
-    pub blocks: Pages<Block>,
+    pub blocks: Vec<Block>,
     /// Where rays begin; [`Child::NONE`] where there is no tree.
     pub root: Child,
     /// Box round the root.
@@ -71,8 +71,8 @@ impl Trees {
         stats.instances = specials.iter().filter(|s| s.root != Child::NONE).count();
         let is_plane = |&i: &u32| matches!(objects[i as usize], Object::Plane { .. });
         Ok(Self {
-            nodes: Pages::new(nodes),
-            blocks: Pages::new(blocks),
+            nodes: in_huge_pages(nodes),
+            blocks: in_huge_pages(blocks),
             root,
             bounds,
             specials,

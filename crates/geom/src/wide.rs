@@ -4,13 +4,11 @@
 //! all eight; leaves are runs of blocks of eight triangles with their corners copied in, also as
 //! structure of arrays.
 
-use bytemuck::{Pod, Zeroable};
-
 /// A reference to a child, or the root of a tree.
 ///
 /// Inner node: its index. Leaf: bit 31, the number of blocks in bits 27 to 30, the first block
 /// below. A leaf of no blocks stands for an object other than a triangle and carries its number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(transparent)]
 pub(crate) struct Child(pub u32);
 
@@ -74,7 +72,7 @@ impl Child {
 }
 
 /// Eight boxes and what they hold; 256 bytes, four cache lines.
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub(crate) struct Node {
     /// x lo, x hi, y lo, y hi, z lo, z hi of the eight children; unused places are empty boxes.
@@ -109,7 +107,7 @@ impl Node {
 }
 
 /// Eight triangles; 320 bytes, five cache lines.
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C, align(64))]
 pub(crate) struct Block {
     /// Corners 0, 1, 2; each x, y, z; each of eight triangles. Unused places are all zero, which no

@@ -12,6 +12,9 @@ const NODE_COST: f32 = 1.0;
 /// Cost of testing one block of primitives.
 const BLOCK_COST: f32 = 0.7;
 
+/// Below this many nodes a subtree is planned by one thread.
+const PARALLEL: usize = 8192;
+
 /// Turns runs of primitives into leaves.
 pub(crate) trait LeafMaker {
     /// Primitives in one block.
@@ -46,19 +49,30 @@ pub(crate) fn collapse<M: LeafMaker>(
 }
 
 fn plan_all<M: LeafMaker>(binary: &[BinaryNode]) -> Vec<Plan> {
-    let none = Plan { cost: [0.0; 7], share: [0; 8], count: 0 };
-    let mut plans = vec![none; binary.len()];
-    // Children lie behind their parents.
-    for (i, node) in binary.iter().enumerate().rev() {
-        plans[i] = match node.prims() {
-            Some(range) => leaf_plan::<M>(node, range.len() as u32),
-            None => {
-                let [l, r] = node.children(i);
-                inner_plan::<M>(node, &plans[l], &plans[r])
-            }
-        };
-    }
+    let mut plans = vec![Plan { cost: [0.0; 7], share: [0; 8], count: 0 }; binary.len()];
+    plan_subtree::<M>(binary, &mut plans);
     plans
+}
+
+/// Plans the subtree of which both slices hold all nodes, the root first.
+fn plan_subtree<M: LeafMaker>(binary: &[BinaryNode], plans: &mut [Plan]) {
+    let node = &binary[0];
+    if let Some(range) = node.prims() {
+        plans[0] = leaf_plan::<M>(node, range.len() as u32);
+        return;
+    }
+    let [left, right] = node.children(0);
+    let (above, below) = plans.split_at_mut(left);
+    let (left_plans, right_plans) = below.split_at_mut(right - left);
+    let plan_left = |plans: &mut [Plan]| plan_subtree::<M>(&binary[left..right], plans);
+    let plan_right = |plans: &mut [Plan]| plan_subtree::<M>(&binary[right..], plans);
+    if binary.len() < PARALLEL {
+        plan_left(left_plans);
+        plan_right(right_plans);
+    } else {
+        rayon::join(|| plan_left(left_plans), || plan_right(right_plans));
+    }
+    above[0] = inner_plan::<M>(node, &left_plans[0], &right_plans[0]);
 }
 
 fn leaf_plan<M: LeafMaker>(node: &BinaryNode, count: u32) -> Plan {

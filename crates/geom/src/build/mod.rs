@@ -14,6 +14,7 @@ pub(crate) use collapse::{LeafMaker, collapse};
 
 use crate::soup::Soup;
 use crate::wide::{Block, Box3, Child, WideTree};
+use rayon::prelude::*;
 
 /// Levels of a tree of triangles; bounds what it asks of the traversal stack.
 pub(crate) const TRIANGLE_DEPTH: u32 = 64;
@@ -58,7 +59,7 @@ fn triangle_prims(soup: &Soup) -> Vec<Prim> {
         let c = soup.corners(id);
         is_traceable(&c).then(|| Prim::new(&Box3::of(&c), id))
     };
-    (0..soup.triangles.len() as u32).filter_map(prim).collect()
+    (0..soup.triangles.len() as u32).into_par_iter().filter_map(prim).collect()
 }
 
 /// Whether a triangle is finite and has an area.

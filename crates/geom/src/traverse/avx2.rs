@@ -1,7 +1,8 @@
 //! Lanes as AVX2 registers.
 #![allow(unsafe_code)]
 
-use super::kernel::{self, KernelRay, Lanes, RawHit, Specials, View};
+use super::kernel::{self, Lanes, RawHit, Specials, View};
+use crate::ray::Ray;
 use crate::wide::Child;
 use std::arch::x86_64::{
     __m256, _CMP_LE_OQ, _CMP_LT_OQ, _mm256_add_ps, _mm256_cmp_ps, _mm256_div_ps, _mm256_loadu_ps,
@@ -96,7 +97,7 @@ impl super::Kernel for Avx2 {
     fn walk<const ANY: bool, S: Specials<f32>>(
         view: View,
         root: Child,
-        ray: &KernelRay<f32>,
+        ray: &Ray,
         hit: &mut RawHit<f32>,
         specials: &S,
     ) -> bool {
@@ -110,7 +111,7 @@ impl super::Kernel for Avx2 {
 fn walk<const ANY: bool, S: Specials<f32>>(
     view: View,
     root: Child,
-    ray: &KernelRay<f32>,
+    ray: &Ray,
     hit: &mut RawHit<f32>,
     specials: &S,
 ) -> bool {

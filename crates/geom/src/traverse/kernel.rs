@@ -6,6 +6,7 @@
 //! both sides, so no fallback to double precision is needed for watertightness.
 
 use super::raw::{Stack, block_at, node_at, place};
+use crate::ray::Ray;
 use crate::wide::{Block, Child, Node};
 use indigo_math::Float;
 
@@ -74,15 +75,24 @@ pub(crate) trait Lanes: Copy {
     fn lt(self, b: Self) -> u32;
 }
 
-/// A ray in the kernel's scalar. All components finite, `t_min >= 0`.
-#[derive(Clone, Copy)]
-pub(crate) struct KernelRay<T> {
-    /// Origin.
-    pub o: [T; 3],
-    /// Direction.
-    pub d: [T; 3],
-    /// Hits at or before this do not count.
-    pub t_min: T,
+/// A ray in the kernel's scalar. It is read where the caller keeps it: a copy made just before
+/// would be stored number by number and loaded in vectors, for which the processor waits.
+struct KernelRay<T> {
+    o: [T; 3],
+    d: [T; 3],
+    t_min: T,
+}
+
+impl<T: Float> KernelRay<T> {
+    #[inline(always)]
+    fn new(ray: &Ray) -> Self {
+        Self {
+            o: ray.o.cast().to_array(),
+            d: ray.d.cast().to_array(),
+            // Adding 0 makes a negative zero positive: distances are compared by their bits.
+            t_min: T::from_f64(ray.t_min.max(0.0).to_f64()) + T::ZERO,
+        }
+    }
 }
 
 /// The best hit so far.
@@ -188,13 +198,10 @@ impl<L: Lanes> TriangleTest<L> {
     #[inline(always)]
     fn new(ray: &KernelRay<L::Scalar>) -> Self {
         let [x, y, z] = ray.d.map(Float::abs);
-        let axes = if x >= y && x >= z {
-            [1, 2, 0]
-        } else if y >= z {
-            [2, 0, 1]
-        } else {
-            [0, 1, 2]
-        };
+        // The largest component, found without a branch: directions are random.
+        let is_x = usize::from(x >= y) * usize::from(x >= z);
+        let largest = (1 - is_x) * (1 + usize::from(z > y));
+        let axes = *place(&[[1, 2, 0], [2, 0, 1], [0, 1, 2]], largest);
         let [kx, ky, kz] = axes;
         let scale = L::Scalar::ONE / ray.d[kz];
         Self {
@@ -241,12 +248,13 @@ impl<L: Lanes> TriangleTest<L> {
 pub(super) fn walk<L: Lanes, const ANY: bool, S: Specials<L::Scalar>>(
     view: View,
     root: Child,
-    ray: &KernelRay<L::Scalar>,
+    ray: &Ray,
     hit: &mut RawHit<L::Scalar>,
     specials: &S,
 ) -> bool {
-    let boxes = BoxTest::<L>::new(ray);
-    let triangles = TriangleTest::<L>::new(ray);
+    let ray = KernelRay::new(ray);
+    let boxes = BoxTest::<L>::new(&ray);
+    let triangles = TriangleTest::<L>::new(&ray);
     let mut t_max = L::splat(hit.t);
     let mut stack = Stack::<STACK_SIZE>::new();
     let mut top = 0;

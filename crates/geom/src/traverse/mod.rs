@@ -12,9 +12,10 @@ mod raw;
 
 #[cfg(target_arch = "x86_64")]
 pub(crate) use avx2::Avx2;
-pub(crate) use kernel::{KernelRay, RawHit, Specials, View};
+pub(crate) use kernel::{RawHit, Specials, View};
 pub(crate) use portable::Portable;
 
+use crate::ray::Ray;
 use crate::wide::Child;
 use indigo_math::Float;
 
@@ -29,7 +30,7 @@ pub(crate) trait Kernel {
     fn walk<const ANY: bool, S: Specials<Self::Scalar>>(
         view: View,
         root: Child,
-        ray: &KernelRay<Self::Scalar>,
+        ray: &Ray,
         hit: &mut RawHit<Self::Scalar>,
         specials: &S,
     ) -> bool;

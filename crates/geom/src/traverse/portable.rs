@@ -1,6 +1,7 @@
 //! Lanes as plain arrays, for every processor and for the double precision oracle.
 
-use super::kernel::{self, KernelRay, KeyBits, Lanes, RawHit, Specials, View};
+use super::kernel::{self, KeyBits, Lanes, RawHit, Specials, View};
+use crate::ray::Ray;
 use crate::wide::Child;
 use indigo_math::Float;
 use std::marker::PhantomData;
@@ -78,7 +79,7 @@ impl<T: KeyBits> super::Kernel for Portable<T> {
     fn walk<const ANY: bool, S: Specials<T>>(
         view: View,
         root: Child,
-        ray: &KernelRay<T>,
+        ray: &Ray,
         hit: &mut RawHit<T>,
         specials: &S,
     ) -> bool {
