@@ -1,7 +1,7 @@
 //! Are the pictures true? Whole scenes, rendered and compared with closed forms.
 //!
-//! All seeds are fixed; the probability that any of the statistical verdicts is a false alarm is 1e-4
-//! together (see `common::judge`).
+//! All seeds are fixed; false-alarm rates are stated where verdicts are made
+//! (`common::judge`).
 
 #[path = "../common/mod.rs"]
 mod common;

@@ -42,9 +42,11 @@ pub static RENDERER_SETTINGS: Block = Block::new(
         count(
             "max_depth",
             "10000",
-            "Largest number of scattering events between the camera and the light.",
+            "Largest number of scattering events between the camera and the light; at 0 only what shines straight \
+             into the lens is seen.",
         )
-        .unit("bounces"),
+        .unit("bounces")
+        .range(Range::AtLeast(0.0)),
         count(
             "max_num_consec_rejections",
             "1000",
@@ -142,7 +144,7 @@ pub static RENDERER_SETTINGS: Block = Block::new(
             "splat_filter",
             Kind::Block(&SPLAT_FILTER),
             Presence::Optional,
-            "How samples are spread over pixels: `mn_cubic` where it is missing.",
+            "How samples are spread over pixels: `gaussian` where it is missing.",
         ),
         Field::new(
             "downsize_filter",
