@@ -217,6 +217,6 @@ fn degenerate_lights_give_numbers() {
 #[test]
 fn the_density_is_one() {
     let (table, squares) = (table(true), squares());
-    let integral = sphere(2e-3, |d| density(&table, &squares, d));
+    let integral = sphere(1e-4, |d| density(&table, &squares, d));
     assert!((integral.value - 1.0).abs() < 2e-3, "{integral:?}");
 }
