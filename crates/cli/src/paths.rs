@@ -30,7 +30,7 @@ pub fn tree_cache() -> PathBuf {
     base.unwrap_or_else(std::env::temp_dir).join("tree_cache")
 }
 
-/// The picture's path where none is given: renders/im_<UTC time>_<scene>.png.
+/// The picture's path where none is given: `renders/im_<UTC time>_<scene>.png`.
 pub fn picture_of(scene: &str, now: SystemTime) -> PathBuf {
     let stem = Path::new(scene).file_stem().map_or_else(|| "scene".into(), |s| s.to_string_lossy());
     Path::new("renders").join(format!("im_{}_{stem}.png", utc(now)))
