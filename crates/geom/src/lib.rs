@@ -4,7 +4,7 @@
 //! anything is in its way. [`Accel::surface`] turns a hit into a [`SurfacePoint`] with an error
 //! bound; [`offset_origin`] starts the next ray clear of that error.
 //!
-//! One node format (8-wide, [`wide`]), two builders (`build`), one traversal kernel (`traverse`)
+//! One node format (8-wide, `wide`), two builders (`build`), one traversal kernel (`traverse`)
 //! whose lanes are AVX2 registers or plain arrays, chosen once per [`Accel`]; both give the same
 //! hits bit for bit. Nothing here opens a file: built trees are kept by a [`TreeStore`] of the host.
 
