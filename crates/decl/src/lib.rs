@@ -3,7 +3,7 @@
 //! A [`Block`] is the declaration of an element with children: its name, its documentation and a
 //! table of [`Field`]s, each with kind, unit, range, default and aliases. From that one table come
 //! reading and checking ([`bind()`]), the settings listing and the scene-format reference
-//! ([`reference`]).
+//! ([`mod@reference`]).
 //!
 //! The way of a scene: text → [`Element`] tree (made by a reader such as `igs`) → [`bind()`] against
 //! the declarations → [`Node`] tree of typed values → lowering, which reads every value it can use.
