@@ -12,7 +12,7 @@ mod reflectance;
 mod scatter;
 mod shading;
 
-pub use materials::{Leaf, Material, MaterialContext, MaterialResources};
+pub use materials::{Interface, Leaf, Material, MaterialContext, MaterialResources};
 pub use reflectance::Reflectance;
-pub use scatter::{LocalSample, Scatter};
+pub use scatter::{Crossing, LocalSample, Scatter};
 pub use shading::{Evaluation, Mode, Scattered, ShadingPoint};

@@ -1,12 +1,18 @@
-//! Where a path meets a surface: the only place of cosines and of corrections for shading normals.
+//! Where a path meets a surface: the only place of cosines, of η² and of corrections for shading normals.
 //!
 //! The geometric normal decides on which side a direction lies, so that no light leaks through a
 //! surface however its shading normal leans; the shading normal gives the cosine. Light that
 //! travels from a lamp sees the same BSDF through the adjoint, whose factor is
 //! |ωo·ns| |ωi·ng| / (|ωo·ng| |ωi·ns|) (Veach 1997, section 5.3).
+//!
+//! Radiance that passes from index η_i to η_o is multiplied by (η_o/η_i)². Models are symmetric,
+//! f_sym = f / (η_camera / η_light), where the ends are those of the path as a whole, so the one factor
+//! η_camera / η_light turns them into the BSDF of either mode. For events of delta kind the density in
+//! solid angle is not there to bring the rest: with T the transmittance and `f = T η_o/η_i` their weight
+//! is T (η_o/η_i)² for radiance and T η_o/η_i · η_i/η_o = T for importance (Veach 1997, section 5.2).
 
 use crate::materials::Leaf;
-use crate::scatter::Scatter;
+use crate::scatter::{Crossing, Scatter};
 use indigo_math::{Frame, Real, Vec3};
 use indigo_spectrum::{LanePdf, SampledSpectrum};
 
@@ -41,6 +47,10 @@ pub struct Evaluation {
     pub pdf_rev: LanePdf,
 }
 
+impl Evaluation {
+    const NOTHING: Self = Self { f_cos: SampledSpectrum::ZERO, pdf: LanePdf::ZERO, pdf_rev: LanePdf::ZERO };
+}
+
 /// A direction drawn from the model.
 #[derive(Clone, Copy, Debug)]
 pub struct Scattered {
@@ -48,10 +58,14 @@ pub struct Scattered {
     pub wi: Vec3,
     /// BSDF times cosine over the hero's density, all corrections in.
     pub weight: SampledSpectrum,
-    /// Density (1/sr) of `wi`.
+    /// Density (1/sr) of `wi`; where `is_delta`, its probability.
     pub pdf: LanePdf,
-    /// Density (1/sr) with which `wo` would be drawn from `wi`.
+    /// Density (1/sr) with which `wo` would be drawn from `wi`; where `is_delta`, the probability.
     pub pdf_rev: LanePdf,
+    /// Whether the direction was the only one of its kind, so that nothing else could have drawn it.
+    pub is_delta: bool,
+    /// Whether the path is now on the other side of the surface.
+    pub is_transmitted: bool,
 }
 
 impl ShadingPoint {
@@ -63,21 +77,45 @@ impl ShadingPoint {
     }
 
     /// The geometric normal on the side from which the surface is seen.
+    #[inline]
     pub fn n_g(&self) -> Vec3 {
         self.n_g
+    }
+
+    /// The direction from which the surface is seen.
+    #[inline]
+    pub fn wo(&self) -> Vec3 {
+        self.wo
+    }
+
+    /// Whether light can be scattered into directions that are given.
+    #[inline]
+    pub fn is_connectable(&self) -> bool {
+        self.leaf.is_connectable()
     }
 
     /// BSDF, cosine and both densities for a direction.
     #[inline]
     pub fn eval(&self, wi: Vec3, mode: Mode) -> Evaluation {
+        let side = wi.dot(self.n_g);
+        // Along the surface, or no number: nothing.
+        if side == 0.0 || side.is_nan() {
+            return Evaluation::NOTHING;
+        }
+        let crossing = if side > 0.0 { Crossing::Reflect } else { Crossing::Down };
         let (o, i) = (self.frame.to_local(self.wo), self.frame.to_local(wi));
-        if wi.dot(self.n_g) <= 0.0 {
-            return Evaluation { f_cos: SampledSpectrum::ZERO, pdf: LanePdf::ZERO, pdf_rev: LanePdf::ZERO };
+        let f = self.leaf.f(o, i, crossing);
+        if f.is_black() {
+            return Evaluation {
+                f_cos: f,
+                pdf: self.leaf.pdf(o, i, crossing),
+                pdf_rev: self.leaf.pdf(i, o, crossing.reversed()),
+            };
         }
         Evaluation {
-            f_cos: self.leaf.f(o, i) * self.cosine(o, i, wi, mode),
-            pdf: self.leaf.pdf(o, i),
-            pdf_rev: self.leaf.pdf(i, o),
+            f_cos: self.corrected(f, crossing, mode) * self.cosine(o, i, wi, crossing, mode),
+            pdf: self.leaf.pdf(o, i, crossing),
+            pdf_rev: self.leaf.pdf(i, o, crossing.reversed()),
         }
     }
 
@@ -87,23 +125,56 @@ impl ShadingPoint {
         let o = self.frame.to_local(self.wo);
         let s = self.leaf.sample(o, u)?;
         let wi = self.frame.to_world(s.wi);
+        let is_transmitted = s.crossing != Crossing::Reflect;
+        let side = wi.dot(self.n_g);
         // A direction that the shading normal allows but the geometry does not: absorbed.
-        if wi.dot(self.n_g) <= 0.0 || s.pdf.hero() <= 0.0 {
+        let is_where_it_should = if is_transmitted { side < 0.0 } else { side > 0.0 };
+        if !is_where_it_should || s.pdf.hero() <= 0.0 {
             return None;
         }
-        let weight = s.f * (self.cosine(o, s.wi, wi, mode) / s.pdf.hero());
-        Some(Scattered { wi, weight, pdf: s.pdf, pdf_rev: self.leaf.pdf(s.wi, o) })
+        let (cosine, pdf_rev) = match s.delta {
+            None => {
+                let pdf_rev = self.leaf.pdf(s.wi, o, s.crossing.reversed());
+                (self.cosine(o, s.wi, wi, s.crossing, mode), pdf_rev)
+            }
+            Some(pdf_rev) => (self.delta_cosine(o, s.wi, wi, mode), pdf_rev),
+        };
+        let weight = self.corrected(s.f, s.crossing, mode) * (cosine / s.pdf.hero());
+        Some(Scattered { wi, weight, pdf: s.pdf, pdf_rev, is_delta: s.delta.is_some(), is_transmitted })
+    }
+
+    /// The symmetric model's value as the BSDF of the path's own mode: times η_camera / η_light.
+    #[inline]
+    fn corrected(&self, f: SampledSpectrum, crossing: Crossing, mode: Mode) -> SampledSpectrum {
+        match (crossing, mode) {
+            (Crossing::Reflect, _) => f,
+            // `wo` lies above: towards the camera for radiance, towards the light for importance.
+            (_, Mode::Radiance) => f / self.leaf.eta(),
+            (_, Mode::Importance) => f * self.leaf.eta(),
+        }
     }
 
     /// The cosine that belongs to `f` in this mode, with the adjoint of the shading normal: 0 where the
-    /// light's direction, `wi` or `wo` by mode, lies below the horizon of the shading normal.
+    /// light's direction, `wi` or `wo` by mode, lies on the wrong side of the shading normal.
     #[inline]
-    fn cosine(&self, o: Vec3, i: Vec3, wi: Vec3, mode: Mode) -> Real {
+    fn cosine(&self, o: Vec3, i: Vec3, wi: Vec3, crossing: Crossing, mode: Mode) -> Real {
         match mode {
-            Mode::Radiance => i.z.max(0.0),
+            Mode::Radiance => (if crossing == Crossing::Reflect { i.z } else { -i.z }).max(0.0),
             Mode::Importance => {
                 let geometric = self.wo.dot(self.n_g).abs();
                 if geometric == 0.0 { 0.0 } else { o.z.max(0.0) * wi.dot(self.n_g).abs() / geometric }
+            }
+        }
+    }
+
+    /// The same over |cos| of the drawn direction, for events of delta kind.
+    #[inline]
+    fn delta_cosine(&self, o: Vec3, i: Vec3, wi: Vec3, mode: Mode) -> Real {
+        match mode {
+            Mode::Radiance => 1.0,
+            Mode::Importance => {
+                let ends = self.wo.dot(self.n_g).abs() * i.z.abs();
+                if ends == 0.0 { 0.0 } else { o.z.max(0.0) * wi.dot(self.n_g).abs() / ends }
             }
         }
     }

@@ -6,7 +6,8 @@ use indigo_geom::{Accel, SurfacePoint};
 use indigo_imaging::PictureSettings;
 use indigo_light::LightTable;
 use indigo_math::Real;
-use indigo_scatter::Material;
+use indigo_scatter::{Interface, Material, MaterialContext};
+use indigo_spectrum::SampledWavelengths;
 use indigo_texture::Texture;
 
 /// Everything that rendering needs, in render space: the world moved so that the camera is its origin.
@@ -100,6 +101,18 @@ impl Scene {
     pub fn material_at(&self, at: &SurfacePoint) -> &Material {
         let slot = self.first_slot[at.object as usize] + at.material_slot;
         &self.materials[self.slots[slot as usize] as usize]
+    }
+
+    /// What materials may look at, for the wavelengths of a path, the indices on the two sides of a
+    /// surface, and a number in [0, 1) that chooses among blended materials.
+    #[inline]
+    pub fn material_context<'a>(
+        &'a self,
+        lambda: &'a SampledWavelengths,
+        interface: Interface,
+        choice: Real,
+    ) -> MaterialContext<'a> {
+        MaterialContext { textures: &self.textures, materials: &self.materials, lambda, interface, choice }
     }
 
     /// How much the scene holds.

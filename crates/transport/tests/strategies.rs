@@ -15,7 +15,7 @@ use indigo_camera::CameraRay;
 use indigo_film::Sensor;
 use indigo_geom::{Ray, SurfacePoint, offset_origin};
 use indigo_math::{Real, Vec2, Vec3};
-use indigo_scatter::{MaterialContext, Mode, ShadingPoint};
+use indigo_scatter::{Interface, Mode, ShadingPoint};
 use indigo_scene::Scene;
 use indigo_spectrum::{SampledSpectrum, SampledWavelengths};
 use indigo_testkit::rng::Rng;
@@ -51,7 +51,7 @@ fn first_surface(
     let ray = Ray::new(camera.origin, camera.direction);
     let hit = scene.accel.intersect(&ray)?;
     let at = scene.accel.surface(&ray, &hit);
-    let context = MaterialContext { textures: &scene.textures, lambda };
+    let context = scene.material_context(lambda, Interface::NONE, 0.5);
     let leaf = scene.material_at(&at).leaf(&context, |set| scene.accel.uv(&at, set))?;
     Some((at, ShadingPoint::new(leaf, at.n_g, at.n_s, -ray.d)))
 }

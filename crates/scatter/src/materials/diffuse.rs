@@ -3,7 +3,7 @@
 use super::fields::{ALBEDO_SPECTRUM, ALBEDO_TEXTURE, BUMP_MAP, COLOUR_DEPRECATED, LATER};
 use super::{MaterialContext, MaterialResources};
 use crate::reflectance::Reflectance;
-use crate::scatter::{LocalSample, Scatter};
+use crate::scatter::{Crossing, LocalSample, Scatter};
 use indigo_decl::{Block, Field, Group, Kind, Node, Presence};
 use indigo_math::warp::{INV_PI, cosine_hemisphere, cosine_hemisphere_pdf};
 use indigo_math::{Real, Vec2, Vec3};
@@ -74,19 +74,20 @@ pub struct DiffuseLeaf {
 
 impl Scatter for DiffuseLeaf {
     #[inline]
-    fn f(&self, _wo: Vec3, _wi: Vec3) -> SampledSpectrum {
-        self.f
+    fn f(&self, _wo: Vec3, _wi: Vec3, crossing: Crossing) -> SampledSpectrum {
+        if crossing == Crossing::Reflect { self.f } else { SampledSpectrum::ZERO }
     }
 
     #[inline]
-    fn pdf(&self, _wo: Vec3, wi: Vec3) -> LanePdf {
-        LanePdf::splat(cosine_hemisphere_pdf(wi.z))
+    fn pdf(&self, _wo: Vec3, wi: Vec3, crossing: Crossing) -> LanePdf {
+        let density = if crossing == Crossing::Reflect { cosine_hemisphere_pdf(wi.z) } else { 0.0 };
+        LanePdf::splat(density)
     }
 
     #[inline]
     fn sample(&self, _wo: Vec3, u: [Real; 3]) -> Option<LocalSample> {
         let wi = cosine_hemisphere(Vec2::new(u[0], u[1]));
         let pdf = cosine_hemisphere_pdf(wi.z);
-        (pdf > 0.0).then(|| LocalSample { wi, f: self.f, pdf: LanePdf::splat(pdf) })
+        (pdf > 0.0).then(|| LocalSample::smooth(wi, Crossing::Reflect, self.f, LanePdf::splat(pdf)))
     }
 }

@@ -10,7 +10,7 @@ pub mod oren_nayar;
 pub mod phong;
 pub mod specular;
 
-use crate::scatter::{LocalSample, Scatter};
+use crate::scatter::{Crossing, LocalSample, Scatter};
 use indigo_decl::{Alternatives, Block, Field, Kind, Later, Node, Presence};
 use indigo_diag::Sink;
 use indigo_math::{Real, Vec2, Vec3};
@@ -22,8 +22,28 @@ use indigo_texture::{Texture, TextureId};
 pub struct MaterialContext<'a> {
     /// All textures of the scene.
     pub textures: &'a [Texture],
+    /// All materials of the scene.
+    pub materials: &'a [Material],
     /// The wavelengths of the path.
     pub lambda: &'a SampledWavelengths,
+    /// What lies on the two sides of the surface.
+    pub interface: Interface,
+    /// A number in [0, 1) that chooses among the materials of a blend.
+    pub choice: Real,
+}
+
+/// The indices of refraction on the two sides of a surface, for each wavelength.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interface {
+    /// On the side from which the point was found.
+    pub above: SampledSpectrum,
+    /// On the other side.
+    pub below: SampledSpectrum,
+}
+
+impl Interface {
+    /// Air, or nothing, on both sides.
+    pub const NONE: Self = Self { above: SampledSpectrum::ONE, below: SampledSpectrum::ONE };
 }
 
 /// What the building of a material needs of the scene.
@@ -84,16 +104,16 @@ macro_rules! registry {
 
         impl Scatter for Leaf {
             #[inline]
-            fn f(&self, wo: Vec3, wi: Vec3) -> SampledSpectrum {
+            fn f(&self, wo: Vec3, wi: Vec3, crossing: Crossing) -> SampledSpectrum {
                 match self {
-                    $(Self::$material(m) => m.f(wo, wi),)*
+                    $(Self::$material(m) => m.f(wo, wi, crossing),)*
                 }
             }
 
             #[inline]
-            fn pdf(&self, wo: Vec3, wi: Vec3) -> LanePdf {
+            fn pdf(&self, wo: Vec3, wi: Vec3, crossing: Crossing) -> LanePdf {
                 match self {
-                    $(Self::$material(m) => m.pdf(wo, wi),)*
+                    $(Self::$material(m) => m.pdf(wo, wi, crossing),)*
                 }
             }
 
@@ -101,6 +121,20 @@ macro_rules! registry {
             fn sample(&self, wo: Vec3, u: [Real; 3]) -> Option<LocalSample> {
                 match self {
                     $(Self::$material(m) => m.sample(wo, u),)*
+                }
+            }
+
+            #[inline]
+            fn eta(&self) -> SampledSpectrum {
+                match self {
+                    $(Self::$material(m) => m.eta(),)*
+                }
+            }
+
+            #[inline]
+            fn is_connectable(&self) -> bool {
+                match self {
+                    $(Self::$material(m) => m.is_connectable(),)*
                 }
             }
         }

@@ -5,7 +5,7 @@ use indigo_diag::{Sink, SourceMap};
 use indigo_igs::{Limits, read_document};
 use indigo_math::{Real, Vec2, Vec3};
 use indigo_scatter::materials::{KINDS, MATERIAL};
-use indigo_scatter::{Leaf, Material, MaterialContext, MaterialResources, ShadingPoint};
+use indigo_scatter::{Interface, Leaf, Material, MaterialContext, MaterialResources, ShadingPoint};
 use indigo_spectrum::SampledWavelengths;
 use indigo_texture::TextureId;
 use std::fmt;
@@ -36,7 +36,13 @@ pub struct Example {
 impl Example {
     /// The model at some wavelengths.
     pub fn leaf(&self, lambda: &SampledWavelengths) -> Leaf {
-        let context = MaterialContext { textures: &[], lambda };
+        let context = MaterialContext {
+            textures: &[],
+            materials: &[],
+            lambda,
+            interface: Interface::NONE,
+            choice: 0.5,
+        };
         self.material.leaf(&context, |_| Vec2::new(0.3, 0.6)).expect("a material that does something")
     }
 }

@@ -1,4 +1,5 @@
 //! Techniques: from a primary sample to light.
 
 pub mod path;
+mod surface;
 mod visibility;

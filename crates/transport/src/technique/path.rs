@@ -7,12 +7,13 @@
 //! hero's; a lane's estimate is `beta / mean(ratio)` (Wilkie et al. 2014, equation 12). Weights
 //! between strategies use densities averaged over the lanes.
 
+use super::surface::shade;
 use super::visibility::{continue_beyond, is_lit, spawn};
 use crate::sampler::{Block, PrimarySample};
 use indigo_camera::CameraRay;
 use indigo_geom::{Ray, SurfacePoint};
 use indigo_math::{Real, Vec3};
-use indigo_scatter::{MaterialContext, Mode, ShadingPoint};
+use indigo_scatter::{Mode, ShadingPoint};
 use indigo_scene::Scene;
 use indigo_spectrum::{LanePdf, SampledSpectrum, SampledWavelengths};
 
@@ -118,6 +119,8 @@ pub fn trace(
     let mut ray = Ray::new(camera.origin, camera.direction);
     let mut alpha = 0.0;
     let mut depth = 0;
+    // Counts invisible surfaces, too: each has a choice of its own where it is part of a blend.
+    let mut vertex = 0;
     loop {
         let Some(hit) = scene.accel.intersect(&ray) else {
             if let Some(light) = scene.lights.environment(lambda) {
@@ -128,23 +131,22 @@ pub fn trace(
         let at = scene.accel.surface(&ray, &hit);
         let wo = -ray.d;
         add_emission(scene, &mut path, &at, wo, lambda);
-        let context = MaterialContext { textures: &scene.textures, lambda };
-        let Some(leaf) = scene.material_at(&at).leaf(&context, |set| scene.accel.uv(&at, set)) else {
+        let [u0, u1, u2, choice] = sample.block(Block::scatter(vertex));
+        let Some(shading) = shade(scene, &at, wo, lambda, choice) else {
             // Not a scattering event: the path goes on as if nothing were here.
             ray = continue_beyond(scene, &ray, &hit, &at);
+            vertex += 1;
             continue;
         };
         alpha = 1.0;
         if depth == max_depth {
             break;
         }
-        let shading = ShadingPoint::new(leaf, at.n_g, at.n_s, wo);
-        let lights = sample.block(Block::light(depth));
+        let lights = sample.block(Block::light(vertex));
         add_direct_light(scene, &mut path, &at, &shading, lights, lambda);
         if depth >= ROULETTE_FROM && !path.survives_roulette(lights[3]) {
             break;
         }
-        let [u0, u1, u2, _] = sample.block(Block::scatter(depth));
         let Some(next) = shading.sample([u0, u1, u2], Mode::Radiance) else { break };
         path.last = Some(LastScatter {
             p: at.p,
@@ -159,6 +161,7 @@ pub fn trace(
         }
         ray = spawn(scene, &at, next.wi);
         depth += 1;
+        vertex += 1;
     }
     PathSample { radiance: path.radiance * camera.importance, alpha }
 }
