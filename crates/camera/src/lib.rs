@@ -3,4 +3,4 @@
 pub mod declare;
 mod thin_lens;
 
-pub use thin_lens::{CameraRay, ThinLens, ThinLensParameters};
+pub use thin_lens::{CameraRay, FilmPosition, ThinLens, ThinLensParameters};

@@ -57,6 +57,15 @@ pub struct CameraRay {
     pub importance: Real,
 }
 
+/// Where on the film light arrives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FilmPosition {
+    /// From (0, 0), top left, to (1, 1) on the film.
+    pub position: Vec2,
+    /// What its radiance counts there, as in [`CameraRay`].
+    pub importance: Real,
+}
+
 impl ThinLens {
     /// A lens from its parameters; `None` where `forwards` and `up` do not span a plane.
     pub fn new(p: &ThinLensParameters) -> Option<Self> {
@@ -96,13 +105,43 @@ impl ThinLens {
         let offset = self.right * on_disk.x + self.up * on_disk.y;
         // Towards the image point `chief · focus`, from the lens point, both divided by focus.
         let direction = (chief - offset * self.inverse_focus).normalized();
-        let importance = if self.vignetting {
-            let cos2 = 1.0 / (1.0 + x * x + y * y);
-            cos2 * cos2
-        } else {
-            1.0
-        };
-        CameraRay { origin: self.position + offset, direction, importance }
+        CameraRay { origin: self.position + offset, direction, importance: self.importance(x, y) }
+    }
+
+    /// The film position that sees along a direction from a point of the lens: the inverse of
+    /// [`ray`](Self::ray). `None` where the direction leads backwards; the position may lie beside the film.
+    #[inline]
+    pub fn film_position(&self, origin: Vec3, direction: Vec3) -> Option<FilmPosition> {
+        let along = direction.dot(self.forwards);
+        if along <= 0.0 {
+            return None;
+        }
+        let offset = origin - self.position;
+        let on_axis = |axis: Vec3| direction.dot(axis) / along + offset.dot(axis) * self.inverse_focus;
+        let (x, y) = (on_axis(self.right), on_axis(self.up));
+        let position = Vec2::new(0.5 + x / self.tangents.x, 0.5 - y / self.tangents.y);
+        Some(FilmPosition { position, importance: self.importance(x, y) })
+    }
+
+    /// Density (1/sr) of the unit directions that [`ray`](Self::ray) gives from any one point of the
+    /// lens when film positions are uniform over the film; positive beside the film, too.
+    ///
+    /// Positions spread evenly over the plane of focus, F² tx ty to the film; a patch of that plane is
+    /// seen under cos³/F² of its area, so that F drops out.
+    #[inline]
+    pub fn pdf_direction(&self, direction: Vec3) -> Real {
+        let cos = direction.dot(self.forwards);
+        if cos <= 0.0 { 0.0 } else { 1.0 / (self.tangents.x * self.tangents.y * cos * cos * cos) }
+    }
+
+    /// What radiance along the chief ray of slopes x and y counts on the film.
+    #[inline]
+    fn importance(&self, x: Real, y: Real) -> Real {
+        if !self.vignetting {
+            return 1.0;
+        }
+        let cos2 = 1.0 / (1.0 + x * x + y * y);
+        cos2 * cos2
     }
 
     /// The viewing direction.
@@ -173,6 +212,43 @@ mod tests {
         assert!((corner.importance - corner.direction.y.powi(4)).abs() < 1e-6);
         let flat = ThinLens::new(&ThinLensParameters { vignetting: false, ..parameters() }).unwrap();
         assert_eq!(flat.ray(Vec2::new(0.0, 0.0), Vec2::new(0.5, 0.5)).importance, 1.0);
+    }
+
+    #[test]
+    fn a_rays_film_position_is_the_one_that_it_came_from() {
+        for focus_distance in [4.0, 0.3, f64::INFINITY] {
+            let p = ThinLensParameters { focus_distance, aperture_radius: 0.05, ..parameters() };
+            let lens = ThinLens::new(&p).unwrap();
+            for i in 0..100 {
+                let u = |k: u32| ((i * k) % 101) as Real / 101.0;
+                let film = Vec2::new(1.2 * u(37) - 0.1, 1.2 * u(59) - 0.1);
+                let ray = lens.ray(film, Vec2::new(u(17), u(71)));
+                let found = lens.film_position(ray.origin, ray.direction).unwrap();
+                assert!((found.position.x - film.x).abs() + (found.position.y - film.y).abs() < 1e-5);
+                assert!((found.importance - ray.importance).abs() < 1e-5);
+                assert!(lens.film_position(ray.origin, -ray.direction).is_none());
+            }
+        }
+    }
+
+    /// The solid angle of a small patch of film, by the density and by its corners.
+    #[test]
+    fn the_density_of_directions_is_one_over_the_solid_angle_of_the_film() {
+        let p = ThinLensParameters { aperture_radius: 0.3, focus_distance: 0.7, ..parameters() };
+        let lens = ThinLens::new(&p).unwrap();
+        for (x, y) in [(0.5, 0.5), (0.05, 0.9), (0.99, 0.3)] {
+            let at = |dx: f64, dy: f64| {
+                let film = Vec2::new((x + dx) as Real, (y + dy) as Real);
+                let d = lens.ray(film, Vec2::new(0.9, 0.2)).direction;
+                d.cast::<f64>()
+            };
+            let h = 0.01;
+            let solid_angle =
+                (at(h, 0.0) - at(-h, 0.0)).cross(at(0.0, h) - at(0.0, -h)).length() / (4.0 * h * h);
+            let density = f64::from(lens.pdf_direction(at(0.0, 0.0).cast()));
+            assert!((density * solid_angle - 1.0).abs() < 2e-3, "{}", density * solid_angle);
+        }
+        assert_eq!(lens.pdf_direction(-lens.forwards()), 0.0);
     }
 
     #[test]

@@ -5,4 +5,4 @@ pub mod kinds;
 mod table;
 
 pub use area::{AreaLight, EmitterPoint};
-pub use table::{Light, LightSample, LightTable};
+pub use table::{Emission, EmissionPdf, Light, LightSample, LightTable};

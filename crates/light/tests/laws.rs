@@ -76,7 +76,7 @@ fn table(with_sky: bool) -> LightTable {
     // Objects: one that is no light, then the squares.
     let numbers: [Option<u32>; 4] =
         if with_sky { [None, Some(0), Some(2), Some(3)] } else { [None, Some(0), Some(1), Some(2)] };
-    LightTable::new(lights, numbers.into_iter(), 2.0)
+    LightTable::new(lights, numbers.into_iter(), (Vec3d::ZERO, 2.0))
 }
 
 fn wavelengths() -> SampledWavelengths {
@@ -186,14 +186,18 @@ fn lights_are_chosen_by_power() {
 #[test]
 fn what_is_no_light_has_no_density_and_no_light() {
     let lambda = wavelengths();
-    for table in [table(false), LightTable::new(vec![], [None].into_iter(), 1.0)] {
+    for table in [table(false), LightTable::new(vec![], [None].into_iter(), (Vec3d::ZERO, 1.0))] {
         assert!(!table.is_emitter(0) && !table.is_emitter(99));
         assert!(table.emitted(0, &lambda).is_none());
         assert_eq!(table.pdf_object(0, 1.0, 1.0), 0.0);
         assert!(table.environment(&lambda).is_none());
         assert_eq!(table.pdf_environment(N, N), 0.0);
     }
-    assert!(LightTable::new(vec![], [None].into_iter(), 1.0).sample(P, N, [0.5; 3], &lambda).is_none());
+    assert!(
+        LightTable::new(vec![], [None].into_iter(), (Vec3d::ZERO, 1.0))
+            .sample(P, N, [0.5; 3], &lambda)
+            .is_none()
+    );
 }
 
 /// A table whose lights are all black chooses among them all the same, and never reports a number
@@ -203,7 +207,7 @@ fn degenerate_lights_give_numbers() {
     let black = Square::new([0.0, 0.0, 1.0], 1.0, 0.0);
     let touching = Square::new([0.0, 0.0, 1e-20], 1.0, 1.0);
     for square in [black, touching] {
-        let table = LightTable::new(vec![square.light()], [Some(0)].into_iter(), 0.0);
+        let table = LightTable::new(vec![square.light()], [Some(0)].into_iter(), (Vec3d::ZERO, 0.0));
         let mut rng = Rng::new(6);
         for _ in 0..1000 {
             if let Some(s) = draw(&table, &mut rng) {

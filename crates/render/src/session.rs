@@ -3,9 +3,9 @@
 use crate::options::{Halt, Options};
 use crate::progress::{Progress, RateMeter};
 use crate::worker::{self, OrderedMerge, Shared};
-use indigo_film::{FilmState, LayerKind, MasterFilm};
+use indigo_film::{FilmState, MasterFilm};
 use indigo_scene::Scene;
-use indigo_transport::driver::Independent;
+use indigo_transport::driver::Driver;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread::JoinHandle;
@@ -64,11 +64,11 @@ impl Session {
     /// # Errors
     /// Where the system gives no threads.
     pub fn start(scene: Arc<Scene>, options: &Options) -> Result<Self, SessionError> {
-        let driver = Independent::new(&scene, options.seed);
-        let film = MasterFilm::new(scene.film.size, &[(LayerKind::PerPixel, "camera")]);
+        let driver = Driver::new(&scene, options.seed);
+        let film = MasterFilm::new(scene.film.size, driver.layers());
         let passes = options.halt.samples_per_pixel.unwrap_or(u64::MAX);
         let shared = Arc::new(Shared {
-            unit_limit: driver.units_per_pass().saturating_mul(passes),
+            unit_limit: driver.units(passes),
             scene,
             driver,
             film,

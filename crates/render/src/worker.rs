@@ -2,7 +2,8 @@
 
 use indigo_film::{FilmDelta, MasterFilm};
 use indigo_scene::Scene;
-use indigo_transport::driver::Independent;
+use indigo_transport::driver::Driver;
+use indigo_transport::technique::Tracer;
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Condvar, Mutex, PoisonError};
@@ -10,7 +11,7 @@ use std::sync::{Condvar, Mutex, PoisonError};
 /// What workers and the session share.
 pub(crate) struct Shared {
     pub scene: std::sync::Arc<Scene>,
-    pub driver: Independent,
+    pub driver: Driver,
     pub film: MasterFilm,
     /// The next unit that nobody does yet.
     pub next_unit: AtomicU64,
@@ -55,6 +56,7 @@ fn merge(film: &MasterFilm, delta: &FilmDelta) {
 /// Does units until told to stop or until there are no more.
 pub(crate) fn work(shared: &Shared) {
     let mut delta = shared.film.delta();
+    let mut tracer = shared.driver.tracer();
     let mut seen_epoch = shared.epoch.load(Ordering::Relaxed);
     while !shared.stop.load(Ordering::Relaxed) {
         wait_while_paused(shared, &mut delta);
@@ -62,7 +64,7 @@ pub(crate) fn work(shared: &Shared) {
         if unit >= shared.unit_limit {
             break;
         }
-        let Some(samples) = render_unit(shared, unit, &mut delta) else { break };
+        let Some(samples) = render_unit(shared, unit, &mut tracer, &mut delta) else { break };
         shared.samples.fetch_add(samples, Ordering::Relaxed);
         if let Some(ordered) = &shared.ordered {
             ordered.hand_over(&shared.film, unit, delta.take());
@@ -85,9 +87,9 @@ fn hand_over(shared: &Shared, delta: &mut FilmDelta) {
 }
 
 /// A panic in the renderer is a bug; it must neither hang the session nor pass unseen.
-fn render_unit(shared: &Shared, unit: u64, delta: &mut FilmDelta) -> Option<u64> {
+fn render_unit(shared: &Shared, unit: u64, tracer: &mut Tracer, delta: &mut FilmDelta) -> Option<u64> {
     let result = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
-        shared.driver.render_unit(&shared.scene, unit, delta)
+        shared.driver.render_unit(&shared.scene, unit, tracer, delta)
     }));
     match result {
         Ok(samples) => Some(samples),

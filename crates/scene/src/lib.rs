@@ -12,5 +12,5 @@ pub mod schema;
 mod settings;
 
 pub use load::{LoadOptions, Loaded, load};
-pub use scene::{FilmSettings, OutputSettings, Scene, SceneStats, TransportSettings};
+pub use scene::{FilmSettings, MetropolisSettings, OutputSettings, Scene, SceneStats, TransportSettings};
 pub use settings::{Listed, Origin, Settings};

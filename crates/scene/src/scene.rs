@@ -40,10 +40,27 @@ pub struct Scene {
 }
 
 /// How light is transported.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TransportSettings {
     /// Largest number of scattering events between camera and light.
     pub max_depth: u32,
+    /// Whether paths are built from both ends.
+    pub bidirectional: bool,
+    /// How paths are mutated, where Metropolis sampling chooses them.
+    pub metropolis: Option<MetropolisSettings>,
+    /// Whether direct light is left to independent samples; only with `metropolis`.
+    pub hybrid: bool,
+}
+
+/// How Metropolis sampling mutates paths.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MetropolisSettings {
+    /// Probability of starting afresh.
+    pub large_mutation_prob: f64,
+    /// Radius of small mutations, of the unit cube's sides.
+    pub max_change: Real,
+    /// Rejections in a row after which a mutation is accepted whatever it is.
+    pub max_consecutive_rejections: i64,
 }
 
 /// The film and how samples fall on it.

@@ -195,7 +195,7 @@ fn whatever_is_not_rendered_yet_is_named_where_it_stands() {
 }
 
 #[test]
-fn switches_are_refused_by_name_but_defaults_only_warned_of() {
+fn switches_that_nothing_renders_are_refused_by_name() {
     let with = |from: &str, to: &str| {
         let l = loaded(&format!("{HEAD}{CAMERA}</scene>").replace(from, to));
         let summary: Vec<(Severity, &str)> =
@@ -203,23 +203,55 @@ fn switches_are_refused_by_name_but_defaults_only_warned_of() {
         summary
     };
     let bidirectional = "<bidirectional>false</bidirectional>";
-    assert_eq!(with(bidirectional, ""), [(Severity::Warning, "W0301")]);
-    assert_eq!(with(bidirectional, "<bidirectional>true</bidirectional>"), [(Severity::Error, "E0205")]);
-    for setting in ["hybrid", "save_igi", "watermark"] {
+    assert_eq!(with(bidirectional, ""), []);
+    for setting in ["save_igi", "watermark"] {
         let on = format!("{bidirectional}<{setting}>true</{setting}>");
         assert_eq!(with(bidirectional, &on), [(Severity::Error, "E0205")], "{setting}");
         assert_eq!(with(bidirectional, &on.replace("true", "false")), [], "{setting}");
     }
     let plane =
         "<plane><normal>0 0 1</normal><dist>0</dist><material_name>white</material_name></plane></scene>";
-    let on = "<bidirectional>true</bidirectional>";
-    let l = loaded(&format!("{HEAD}{CAMERA}{plane}").replace(bidirectional, on));
-    assert!(
-        l.sink
-            .diagnostics()
-            .iter()
-            .any(|d| d.code == "E0311" && d.hint.as_ref().is_some_and(|h| h.contains("mesh")))
+    // Also where it is on by default.
+    for on in ["<bidirectional>true</bidirectional>", ""] {
+        let l = loaded(&format!("{HEAD}{CAMERA}{plane}").replace(bidirectional, on));
+        assert!(
+            l.sink
+                .diagnostics()
+                .iter()
+                .any(|d| d.code == "E0311" && d.hint.as_ref().is_some_and(|h| h.contains("mesh")))
+        );
+    }
+}
+
+#[test]
+fn transport_settings_reach_the_scene() {
+    let transport = |settings: &str| {
+        let text = format!("{HEAD}{CAMERA}</scene>")
+            .replace("<bidirectional>false</bidirectional>", "")
+            .replace("<metropolis>false</metropolis>", "")
+            .replace("<width>64</width>", &format!("<width>64</width>{settings}"));
+        let l = loaded(&text);
+        assert!(!l.sink.has_errors(), "{:?}", l.sink.diagnostics());
+        l.scene.expect("a sound scene").transport
+    };
+    let default = transport("");
+    assert!(default.bidirectional && !default.hybrid && default.max_depth == 10_000);
+    let metropolis = default.metropolis.expect("on by default");
+    assert_eq!(metropolis.large_mutation_prob, 0.4);
+    assert_eq!(metropolis.max_change as f32, 0.01);
+    assert_eq!(metropolis.max_consecutive_rejections, 1000);
+    let set = transport(
+        "<bidirectional>false</bidirectional><large_mutation_prob>0.1</large_mutation_prob>\
+         <max_change>0.5</max_change><max_num_consec_rejections>7</max_num_consec_rejections>",
     );
+    assert!(!set.bidirectional);
+    let metropolis = set.metropolis.expect("on by default");
+    assert_eq!(metropolis.large_mutation_prob, 0.1);
+    assert_eq!((metropolis.max_change as f32, metropolis.max_consecutive_rejections), (0.5, 7));
+    assert_eq!(transport("<metropolis>false</metropolis>").metropolis, None);
+    // A hybrid needs Metropolis sampling for its indirect light.
+    let hybrid = transport("<metropolis>false</metropolis><hybrid>true</hybrid>");
+    assert!(hybrid.hybrid && hybrid.metropolis.is_some());
 }
 
 #[test]

@@ -13,17 +13,44 @@ pub struct Block(u32);
 impl Block {
     /// Film x and y, wavelength, and a number that is free.
     pub const FILM: Self = Self(0);
-    /// Lens x and y, and two numbers that are free.
+    /// Lens x and y, and the direction in which light leaves a lamp.
     pub const LENS: Self = Self(1);
+    /// Choice of light and a point on it or a direction towards it, where light paths begin; one is free.
+    pub const EMISSION: Self = Self(2);
 
-    /// Choice of light, two numbers for the point or direction on it, and roulette, at a vertex.
-    pub const fn light(vertex: u32) -> Self {
-        Self(2 + 2 * vertex)
+    /// Blocks of each vertex.
+    const STRIDE: u32 = 4;
+
+    const fn of(vertex: u32, which: u32) -> Self {
+        Self(3 + Self::STRIDE * vertex + which)
     }
 
-    /// Three numbers for the scattered direction at a vertex, and one that is free.
+    /// Choice of light, two numbers for the point or direction on it, and roulette, at a vertex of the
+    /// camera's path.
+    pub const fn light(vertex: u32) -> Self {
+        Self::of(vertex, 0)
+    }
+
+    /// Three numbers for the scattered direction at a vertex of the camera's path, and the choice among
+    /// blended materials.
     pub const fn scatter(vertex: u32) -> Self {
-        Self(3 + 2 * vertex)
+        Self::of(vertex, 1)
+    }
+
+    /// The same at a vertex of the light's path.
+    pub const fn light_scatter(vertex: u32) -> Self {
+        Self::of(vertex, 2)
+    }
+
+    /// Roulette at a vertex of the light's path, a choice of connections at one of the camera's path,
+    /// and two numbers that are free.
+    pub const fn connect(vertex: u32) -> Self {
+        Self::of(vertex, 3)
+    }
+
+    /// Its place in a list of all blocks.
+    pub(crate) const fn index(self) -> usize {
+        self.0 as usize
     }
 }
 
@@ -63,9 +90,14 @@ mod tests {
 
     #[test]
     fn blocks_do_not_collide_and_can_be_replayed() {
-        let mut names = vec![Block::FILM, Block::LENS];
+        let mut names = vec![Block::FILM, Block::LENS, Block::EMISSION];
         for vertex in 0..100 {
-            names.extend([Block::light(vertex), Block::scatter(vertex)]);
+            names.extend([
+                Block::light(vertex),
+                Block::scatter(vertex),
+                Block::light_scatter(vertex),
+                Block::connect(vertex),
+            ]);
         }
         let mut indices: Vec<u32> = names.iter().map(|b| b.0).collect();
         indices.sort_unstable();

@@ -21,7 +21,7 @@ use indigo_spectrum::{SampledSpectrum, SampledWavelengths};
 use indigo_testkit::rng::Rng;
 use indigo_testkit::stats::Moments;
 use indigo_transport::sampler::{Block, PrimarySample, SobolSample};
-use indigo_transport::technique::path;
+use indigo_transport::technique::{Events, path};
 
 /// Batches, and samples in each.
 const BATCHES: u64 = 24;
@@ -121,7 +121,8 @@ fn measure(scene: &Scene) -> [Moments; 3] {
                 sums[1] += luminance(&found(scene, &at, &shading, scattering, &lambda));
             }
             // The same path cut before it scatters holds what shines straight into the lens.
-            let mut traced = |depth| path::trace(scene, &mut sample, &lambda, &camera, depth).radiance;
+            let mut traced =
+                |depth| path::trace(scene, &mut sample, &lambda, &camera, Events::up_to(depth)).radiance;
             sums[2] += luminance(&(traced(1) - traced(0)));
         }
         for (m, sum) in moments.iter_mut().zip(sums) {
@@ -206,7 +207,7 @@ fn luminance_of_paths(scene: &Scene, seed: u64) -> f64 {
         let [x, y, u, _] = sample.block(Block::FILM);
         let lambda = SampledWavelengths::sample(u);
         let camera = scene.camera.ray(Vec2::new(x, y), Vec2::new(0.5, 0.5));
-        let found = path::trace(scene, &mut sample, &lambda, &camera, 100);
+        let found = path::trace(scene, &mut sample, &lambda, &camera, Events::up_to(100));
         sum += f64::from(Sensor::new(&lambda).xyz(&found.radiance)[1]);
     }
     sum / f64::from(SAMPLES)

@@ -7,12 +7,12 @@ pub mod text;
 
 use indigo_decl::{ResolveError, Resolved, Resolver};
 use indigo_diag::{Style, to_text};
-use indigo_film::{FilmState, LayerKind};
+use indigo_film::FilmState;
 use indigo_geom::NoStore;
 use indigo_igs::Limits;
 use indigo_scene::{LoadOptions, Scene, load};
 use indigo_testkit::stats::Moments;
-use indigo_transport::driver::Independent;
+use indigo_transport::driver::Driver;
 use std::collections::HashMap;
 
 /// Files by name.
@@ -52,11 +52,12 @@ pub fn scene_with<const N: usize>(text: &str, files: [(&str, Vec<u8>); N]) -> Sc
 
 /// A film with `passes` samples for each output pixel.
 pub fn film(scene: &Scene, seed: u64, passes: u64) -> FilmState {
-    let driver = Independent::new(scene, seed);
-    let mut film = FilmState::new(scene.film.size, &[(LayerKind::PerPixel, "camera")]);
+    let driver = Driver::new(scene, seed);
+    let mut film = FilmState::new(scene.film.size, driver.layers());
     let mut delta = film.delta();
-    for unit in 0..passes * driver.units_per_pass() {
-        driver.render_unit(scene, unit, &mut delta);
+    let mut tracer = driver.tracer();
+    for unit in 0..driver.units(passes) {
+        driver.render_unit(scene, unit, &mut tracer, &mut delta);
         // Often enough that single precision loses nothing that these tests could see.
         if unit % 64 == 63 {
             film.merge(&delta).expect("made by this film");

@@ -5,7 +5,7 @@ use super::materials::{MaterialTable, UvSets};
 use super::meshes::MeshTable;
 use super::placement;
 use crate::codes;
-use crate::settings::{Origin, Settings};
+use crate::settings::Settings;
 use indigo_decl::Node;
 use indigo_diag::Diagnostic;
 use indigo_geom::Object;
@@ -71,7 +71,7 @@ impl Geometry {
             self.add_shape(sphere, object, materials, context);
         }
         for plane in root.nodes("plane") {
-            if settings.bool("bidirectional") && settings.origin("bidirectional") != Origin::Default {
+            if settings.bool("bidirectional") {
                 context.sink.push(
                     Diagnostic::error(
                         codes::PLANE_BIDIRECTIONAL,

@@ -93,9 +93,11 @@ impl Lights {
 
     /// The table of all lights.
     pub(super) fn into_table(self, geometry: &Geometry, accel: &Accel) -> LightTable {
-        let size = accel.bounds().size().cast::<f64>();
-        let radius = if size.is_finite() { 0.5 * size.length() } else { 1.0 };
-        LightTable::new(self.lights, geometry.lights(), radius)
+        let bounds = accel.bounds();
+        let (center, size) = (bounds.center().cast::<f64>(), bounds.size().cast::<f64>());
+        // The sphere is a little larger than the box's, so that rounding keeps everything inside.
+        let sphere = if size.is_finite() { (center, 0.5001 * size.length()) } else { (Vec3d::ZERO, 1.0) };
+        LightTable::new(self.lights, geometry.lights(), sphere)
     }
 }
 

@@ -14,7 +14,7 @@ mod placement;
 
 use crate::codes;
 use crate::load::LoadOptions;
-use crate::scene::{Scene, TransportSettings};
+use crate::scene::{MetropolisSettings, Scene, TransportSettings};
 use crate::settings::Settings;
 use geometry::Geometry;
 use indigo_decl::{Node, report_unread};
@@ -73,7 +73,7 @@ pub(crate) fn lower(
 }
 
 fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) -> Option<Scene> {
-    let transport = transport(settings, context.sink);
+    let transport = transport(settings);
     let film = picture::film(settings, context.sink);
     let output = picture::output(settings, context.sink, path);
     camera::diffraction(settings, context.sink);
@@ -152,19 +152,25 @@ fn find_camera<'a>(root: &'a Node, sink: &mut Sink) -> Option<&'a Node> {
     camera
 }
 
-fn transport(settings: &Settings, sink: &mut Sink) -> TransportSettings {
-    for field in ["bidirectional", "metropolis"] {
-        settings.refuse_true(
-            field,
-            Some("light is found by path tracing, which converges to the same picture"),
-            sink,
-        );
+fn transport(settings: &Settings) -> TransportSettings {
+    let hybrid = settings.bool("hybrid");
+    // A hybrid leaves indirect light to Metropolis sampling, whatever `metropolis` says.
+    let metropolis = (settings.bool("metropolis") || hybrid).then(|| MetropolisSettings {
+        large_mutation_prob: settings.real("large_mutation_prob"),
+        max_change: settings.real("max_change") as indigo_math::Real,
+        max_consecutive_rejections: settings.int("max_num_consec_rejections").value,
+    });
+    if metropolis.is_none() {
+        for field in ["large_mutation_prob", "max_change", "max_num_consec_rejections"] {
+            settings.disregard(field);
+        }
     }
-    settings.refuse_true("hybrid", None, sink);
-    for field in ["large_mutation_prob", "max_change", "max_num_consec_rejections"] {
-        settings.disregard(field);
+    TransportSettings {
+        max_depth: u32::try_from(settings.int("max_depth").value).unwrap_or(u32::MAX),
+        bidirectional: settings.bool("bidirectional"),
+        metropolis,
+        hybrid,
     }
-    TransportSettings { max_depth: u32::try_from(settings.int("max_depth").value).unwrap_or(u32::MAX) }
 }
 
 /// An empty file, for resources that could not be read.

@@ -3,91 +3,112 @@
 //! A pass gives each output pixel one sample; a unit of work is a tile of a pass. What a sample is
 //! depends on the seed, its pixel and its number alone, never on the unit or the thread.
 
+use super::region::Region;
 use crate::sampler::{Block, PrimarySample, SobolSample};
-use crate::technique::path;
-use indigo_film::{FilmDelta, FilmFilter, FilmSize, Sensor};
+use crate::technique::{Events, Tracer};
+use indigo_film::{FilmDelta, FilmFilter};
 use indigo_math::{Float, Real, Vec2, rng};
 use indigo_scene::Scene;
-use indigo_spectrum::SampledWavelengths;
 
 /// Side of a tile in output pixels: a unit of about a millisecond, whose rays stay together.
 const TILE: u32 = 32;
-/// The film layer of camera samples.
-const CAMERA_LAYER: usize = 0;
 
-/// Path tracing of camera samples in low-discrepancy order.
+/// Samples in low-discrepancy order.
 #[derive(Clone, Debug)]
 pub struct Independent {
-    size: FilmSize,
+    region: Region,
     filter: FilmFilter,
     seed: u64,
-    /// First and last (excluded) output column and row that are rendered.
-    region: [[u32; 2]; 2],
     tiles: [u32; 2],
+    events: Events,
+    is_bidirectional: bool,
+    /// The film's layer of camera samples; that of splats follows.
+    layer: usize,
 }
 
 impl Independent {
-    /// For a scene and the seed of all its randomness.
-    pub fn new(scene: &Scene, seed: u64) -> Self {
-        let size = scene.film.size;
-        let region = scene.film.region.unwrap_or([[0, size.width()], [0, size.height()]]);
-        let tiles = region.map(|[lo, hi]| (hi - lo).div_ceil(TILE));
-        Self { size, filter: scene.film.filter.clone(), seed, region, tiles }
+    /// For a scene, the seed of all its randomness, the paths to render, and the film's layer of
+    /// camera samples, which that of splats follows.
+    pub(super) fn new(scene: &Scene, seed: u64, events: Events, layer: usize) -> Self {
+        let region = Region::of(scene);
+        let tiles = region.ends.map(|[lo, hi]| (hi - lo).div_ceil(TILE));
+        Self {
+            region,
+            filter: scene.film.filter.clone(),
+            seed,
+            tiles,
+            events,
+            is_bidirectional: scene.transport.bidirectional,
+            layer,
+        }
     }
 
     /// Units of a pass, which gives every rendered output pixel one sample.
-    pub fn units_per_pass(&self) -> u64 {
+    pub(super) fn units_per_pass(&self) -> u64 {
         u64::from(self.tiles[0]) * u64::from(self.tiles[1])
     }
 
-    /// Output pixels that are rendered.
-    pub fn pixels(&self) -> u64 {
-        let [x, y] = self.region.map(|[lo, hi]| u64::from(hi - lo));
-        x * y
-    }
-
     /// Does a unit: adds its samples to `delta`, and says how many they were.
-    pub fn render_unit(&self, scene: &Scene, unit: u64, delta: &mut FilmDelta) -> u64 {
+    pub(super) fn render_unit(
+        &self,
+        scene: &Scene,
+        unit: u64,
+        tracer: &mut Tracer,
+        delta: &mut FilmDelta,
+    ) -> u64 {
         let (pass, tile) = (unit / self.units_per_pass(), (unit % self.units_per_pass()) as u32);
         let corner = [tile % self.tiles[0], tile / self.tiles[0]];
         let range = |axis: usize| {
-            let lo = self.region[axis][0] + corner[axis] * TILE;
-            lo..(lo + TILE).min(self.region[axis][1])
+            let [first, end] = self.region.ends[axis];
+            let lo = first + corner[axis] * TILE;
+            lo..(lo + TILE).min(end)
         };
         let mut samples = 0;
         for y in range(1) {
             for x in range(0) {
-                self.render_sample(scene, [x, y], pass, delta);
+                self.render_sample(scene, [x, y], pass, tracer, delta);
                 samples += 1;
             }
+        }
+        if self.is_bidirectional {
+            delta.add_samples(self.layer + 1, samples);
         }
         samples
     }
 
     /// Sample number `pass` of an output pixel.
-    fn render_sample(&self, scene: &Scene, pixel: [u32; 2], pass: u64, delta: &mut FilmDelta) {
+    fn render_sample(
+        &self,
+        scene: &Scene,
+        pixel: [u32; 2],
+        pass: u64,
+        tracer: &mut Tracer,
+        delta: &mut FilmDelta,
+    ) {
+        let size = self.region.size;
         let [x, y] = self.internal_pixel(pixel, pass);
         let stream = u64::from(y) << 32 | u64::from(x);
-        let cells = u64::from(self.size.super_sample()).pow(2);
-        let mut sample = SobolSample::new(self.seed, stream, (pass / cells) as u32);
-        let [u0, u1, u2, _] = sample.block(Block::FILM);
-        let lambda = SampledWavelengths::sample(u2);
+        let cells = u64::from(size.super_sample()).pow(2);
+        let mut numbers = SobolSample::new(self.seed, stream, (pass / cells) as u32);
+        let [u0, u1, ..] = numbers.block(Block::FILM);
         let on_film = self.filter.sample(x, y, [u0, u1]);
-        let [l0, l1, _, _] = sample.block(Block::LENS);
         let position = Vec2::new(
-            on_film.position.x / self.size.internal_width() as Real,
-            on_film.position.y / self.size.internal_height() as Real,
+            on_film.position.x / size.internal_width() as Real,
+            on_film.position.y / size.internal_height() as Real,
         );
-        let ray = scene.camera.ray(position, Vec2::new(l0, l1));
-        let found = path::trace(scene, &mut sample, &lambda, &ray, scene.transport.max_depth);
-        let xyz = Sensor::new(&lambda).xyz(&(found.radiance * on_film.weight));
-        delta.add_sample(CAMERA_LAYER, x, y, xyz, (found.alpha * on_film.weight).to_f64() as f32);
+        let found = tracer.trace(scene, &mut numbers, position, self.events, &mut ());
+        let xyz = found.sensor.xyz(&(found.path.radiance * on_film.weight));
+        delta.add_sample(self.layer, x, y, xyz, (found.path.alpha * on_film.weight).to_f64() as f32);
+        for splat in tracer.splats() {
+            let xyz = found.sensor.xyz(&splat.radiance);
+            delta.splat(self.layer + 1, self.region.in_pixels(splat.position), xyz, &self.filter);
+        }
     }
 
     /// The internal pixel that sample number `pass` of an output pixel goes to: each in turn, the
     /// first one at random, so that every number of passes is fair to all.
     fn internal_pixel(&self, [x, y]: [u32; 2], pass: u64) -> [u32; 2] {
-        let n = u64::from(self.size.super_sample());
+        let n = u64::from(self.region.size.super_sample());
         if n == 1 {
             return [x, y];
         }

@@ -1,5 +1,125 @@
 //! Drivers: which samples to take, in units of work that any thread can do and any run can replay.
 
+mod chain;
 mod independent;
+mod metropolis;
+mod region;
 
-pub use independent::Independent;
+use crate::technique::{Events, Tracer};
+use independent::Independent;
+use indigo_film::{FilmDelta, LayerKind};
+use indigo_scene::Scene;
+use metropolis::{MUTATIONS, Metropolis};
+use region::Region;
+
+/// The driver of a scene.
+#[derive(Debug)]
+pub struct Driver {
+    parts: Parts,
+    layers: Vec<(LayerKind, &'static str)>,
+    pixels: u64,
+    rendered: indigo_math::Real,
+    is_bidirectional: bool,
+}
+
+#[derive(Debug)]
+enum Parts {
+    Independent(Box<Independent>),
+    Metropolis(Box<Metropolis>),
+    /// Direct light by the one and the rest by the other, in turns.
+    Hybrid(Box<Independent>, Box<Metropolis>),
+}
+
+/// Scattering events of the light that a hybrid driver takes for direct.
+const DIRECT: u32 = 1;
+
+impl Driver {
+    /// What the scene's settings ask for, with the seed of all randomness.
+    pub fn new(scene: &Scene, seed: u64) -> Self {
+        let transport = &scene.transport;
+        let most = transport.max_depth;
+        let mut layers = vec![];
+        let camera_layers = |layers: &mut Vec<(LayerKind, &'static str)>| {
+            layers.push((LayerKind::PerPixel, "camera"));
+            if transport.bidirectional {
+                layers.push((LayerKind::PerScreen, "light"));
+            }
+        };
+        let independent = |events| Box::new(Independent::new(scene, seed, events, 0));
+        let parts = match transport.metropolis {
+            None => {
+                camera_layers(&mut layers);
+                Parts::Independent(independent(Events::up_to(most)))
+            }
+            Some(settings) if transport.hybrid && most > DIRECT => {
+                camera_layers(&mut layers);
+                let direct = independent(Events::up_to(DIRECT));
+                let rest = Events { least: DIRECT + 1, most };
+                let indirect = Box::new(Metropolis::new(scene, seed, rest, settings, layers.len()));
+                layers.push((LayerKind::PerScreen, "metropolis"));
+                Parts::Hybrid(direct, indirect)
+            }
+            Some(_) if transport.hybrid => {
+                camera_layers(&mut layers);
+                Parts::Independent(independent(Events::up_to(most)))
+            }
+            Some(settings) => {
+                layers.push((LayerKind::PerScreen, "metropolis"));
+                let driver = Metropolis::new(scene, seed, Events::up_to(most), settings, 0);
+                Parts::Metropolis(Box::new(driver))
+            }
+        };
+        let region = Region::of(scene);
+        Self {
+            parts,
+            layers,
+            pixels: region.pixels(),
+            rendered: region.share(),
+            is_bidirectional: transport.bidirectional,
+        }
+    }
+
+    /// The layers of the film that it fills.
+    pub fn layers(&self) -> &[(LayerKind, &'static str)] {
+        &self.layers
+    }
+
+    /// Output pixels that are rendered.
+    pub fn pixels(&self) -> u64 {
+        self.pixels
+    }
+
+    /// The technique with its memory, one for each thread.
+    pub fn tracer(&self) -> Tracer {
+        Tracer::new(self.is_bidirectional, self.rendered)
+    }
+
+    /// Units that give every rendered output pixel so many samples.
+    pub fn units(&self, passes: u64) -> u64 {
+        match &self.parts {
+            Parts::Independent(driver) => driver.units_per_pass().saturating_mul(passes),
+            Parts::Metropolis(driver) => driver.units(passes),
+            Parts::Hybrid(direct, _) => {
+                let samples = u128::from(self.pixels) * u128::from(passes);
+                let pair = u128::from(self.pixels / direct.units_per_pass() + MUTATIONS).max(1);
+                u64::try_from(2 * samples.div_ceil(pair)).unwrap_or(u64::MAX)
+            }
+        }
+    }
+
+    /// Does a unit: adds its samples to `delta`, a film of [`layers`](Self::layers), and says how many
+    /// they were.
+    pub fn render_unit(&self, scene: &Scene, unit: u64, tracer: &mut Tracer, delta: &mut FilmDelta) -> u64 {
+        match &self.parts {
+            Parts::Independent(driver) => driver.render_unit(scene, unit, tracer, delta),
+            Parts::Metropolis(driver) => driver.render_unit(scene, unit, tracer, delta),
+            Parts::Hybrid(direct, indirect) => {
+                if unit.is_multiple_of(2) {
+                    direct.render_unit(scene, unit / 2, tracer, delta)
+                } else {
+                    indirect.render_unit(scene, unit / 2, tracer, delta)
+                }
+            }
+        }
+    }
+}

@@ -1,5 +1,72 @@
 //! Techniques: from a primary sample to light.
 
+pub mod bidirectional;
+mod mis;
 pub mod path;
 mod surface;
+mod tracer;
 mod visibility;
+
+pub use tracer::{Found, Tracer};
+
+use indigo_math::{Real, Vec2};
+use indigo_spectrum::SampledSpectrum;
+
+/// Which paths count, by their number of scattering events between camera and light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Events {
+    /// The least number.
+    pub least: u32,
+    /// The largest number.
+    pub most: u32,
+}
+
+impl Events {
+    /// All paths of at most so many events.
+    pub const fn up_to(most: u32) -> Self {
+        Self { least: 0, most }
+    }
+
+    /// Whether paths of `n` events count.
+    #[inline]
+    pub fn holds(self, n: u32) -> bool {
+        (self.least..=self.most).contains(&n)
+    }
+}
+
+/// Light that arrives along a camera ray.
+#[derive(Clone, Copy, Debug)]
+pub struct PathSample {
+    /// Radiance, W m^-3 sr^-1, as it counts on the film.
+    pub radiance: SampledSpectrum,
+    /// 1 where the ray meets a visible surface, 0 where it leaves the scene.
+    pub alpha: Real,
+}
+
+/// Light that arrives somewhere on the film.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Splat {
+    /// From (0, 0), top left, to (1, 1).
+    pub position: Vec2,
+    /// Radiance, W m^-3 sr^-1, as it counts on the film, over the density of film positions.
+    pub radiance: SampledSpectrum,
+}
+
+/// Somebody who looks at the single contributions of a sample.
+pub trait Record {
+    /// A contribution of strategy (s, t) at a film position of its own or at the camera ray's: its
+    /// value as if there were no other strategy, and the weight that it got.
+    fn contribution(
+        &mut self,
+        strategy: (u32, u32),
+        at: Option<Vec2>,
+        unweighted: SampledSpectrum,
+        weight: Real,
+    );
+}
+
+/// Nobody looks.
+impl Record for () {
+    #[inline(always)]
+    fn contribution(&mut self, _: (u32, u32), _: Option<Vec2>, _: SampledSpectrum, _: Real) {}
+}

@@ -9,6 +9,7 @@
 
 use super::surface::shade;
 use super::visibility::{continue_beyond, is_lit, spawn};
+use super::{Events, PathSample};
 use crate::sampler::{Block, PrimarySample};
 use indigo_camera::CameraRay;
 use indigo_geom::{Ray, SurfacePoint};
@@ -19,15 +20,6 @@ use indigo_spectrum::{LanePdf, SampledSpectrum, SampledWavelengths};
 
 /// Vertices before roulette sets in: short paths carry most of the light.
 const ROULETTE_FROM: u32 = 3;
-
-/// Light that arrives along a camera ray.
-#[derive(Clone, Copy, Debug)]
-pub struct PathSample {
-    /// Radiance, W m^-3 sr^-1.
-    pub radiance: SampledSpectrum,
-    /// 1 where the ray meets a visible surface, 0 where it leaves the scene.
-    pub alpha: Real,
-}
 
 /// A path on its way from the camera.
 struct Path {
@@ -45,7 +37,7 @@ struct LastScatter {
     n: Vec3,
     /// Densities of the direction over the *path's* hero density: `ratio` before times the lanes' pdf.
     pdf: LanePdf,
-    /// The same for the strategies that end here: `mean(ratio)` before the direction was drawn.
+    /// The same for drawing light here: `mean(ratio)` before the direction was drawn, or 0.
     prefix: Real,
 }
 
@@ -106,14 +98,12 @@ impl Path {
 }
 
 /// Traces the path of a camera ray.
-///
-/// `max_depth` is the largest number of scattering events between camera and light.
 pub fn trace(
     scene: &Scene,
     sample: &mut impl PrimarySample,
     lambda: &SampledWavelengths,
     camera: &CameraRay,
-    max_depth: u32,
+    events: Events,
 ) -> PathSample {
     let mut path = Path::new();
     let mut ray = Ray::new(camera.origin, camera.direction);
@@ -123,14 +113,16 @@ pub fn trace(
     let mut vertex = 0;
     loop {
         let Some(hit) = scene.accel.intersect(&ray) else {
-            if let Some(light) = scene.lights.environment(lambda) {
+            if let Some(light) = scene.lights.environment(lambda).filter(|_| events.holds(depth)) {
                 path.add_found(light, |last| scene.lights.pdf_environment(last.n, ray.d));
             }
             break;
         };
         let at = scene.accel.surface(&ray, &hit);
         let wo = -ray.d;
-        add_emission(scene, &mut path, &at, wo, lambda);
+        if events.holds(depth) {
+            add_emission(scene, &mut path, &at, wo, lambda);
+        }
         let [u0, u1, u2, choice] = sample.block(Block::scatter(vertex));
         let Some(shading) = shade(scene, &at, wo, lambda, choice) else {
             // Not a scattering event: the path goes on as if nothing were here.
@@ -139,11 +131,13 @@ pub fn trace(
             continue;
         };
         alpha = 1.0;
-        if depth == max_depth {
+        if depth == events.most {
             break;
         }
         let lights = sample.block(Block::light(vertex));
-        add_direct_light(scene, &mut path, &at, &shading, lights, lambda);
+        if events.holds(depth + 1) {
+            add_direct_light(scene, &mut path, &at, &shading, lights, lambda);
+        }
         if depth >= ROULETTE_FROM && !path.survives_roulette(lights[3]) {
             break;
         }
@@ -152,7 +146,8 @@ pub fn trace(
             p: at.p,
             n: shading.n_g(),
             pdf: path.ratio * next.pdf,
-            prefix: path.ratio.mean(),
+            // Light drawn at this vertex does not go the way of an event of delta kind.
+            prefix: if next.is_delta { 0.0 } else { path.ratio.mean() },
         });
         path.beta *= next.weight;
         path.ratio *= next.pdf.ratio_to_hero();

@@ -1,0 +1,207 @@
+//! Weights among the ways in which a path can be made, kept vertex by vertex.
+//!
+//! A path of n vertices can be made by joining s vertices of a light path and t = n − s of a camera
+//! path, for every s. Strategy i has the density p_i = Π fwd_j (j < i) · Π rev_j (j ≥ i), where fwd_j
+//! is the density with which vertex j is found from the light's side and rev_j that from the camera's.
+//! All p_i / p_s follow from the quotients rev_j / fwd_j, whose running sums need constant work per
+//! vertex and per connection (van Antwerpen 2011, "Recursive MIS Computation for Streaming BDPT on the
+//! GPU"; Georgiev 2012, "Implementing Vertex Connection and Merging"). The same holds from the camera.
+//!
+//! Here every density is one per lane, as sampling may depend on the wavelength. All are kept over
+//! the density of the *hero* of the strategy that made the prefix, the only number that is divided
+//! by: it is positive, whatever the other lanes are. With m(x) = x^β, lanes l and
+//! ρ_l = p_s,l / p_s,hero the weight of strategy s is
+//!
+//! w_s = Σ_l m(ρ_l) / Σ_l Σ_i m(p_i,l / p_s,hero),
+//!
+//! which sums to 1 over s for any path, and the contribution is f_l / p_s,hero · w_s / mean(ρ)
+//! (Veach 1997, section 9.2; Wilkie et al. 2014, equation 12).
+//!
+//! A vertex where the path went on by an event of delta kind cannot be joined, so strategies that
+//! would end there count nothing. The probability that stands for the delta's density is the
+//! same from both sides of the quotient wherever both are divided, so it cancels as the delta does.
+//! Roulette is left out of all densities, for every strategy alike.
+
+use indigo_math::Real;
+use indigo_scatter::Scattered;
+use indigo_spectrum::LanePdf;
+
+/// The exponent of the heuristic: a power of 2 or, if 1, the balance heuristic.
+const SQUARED: bool = true;
+
+#[inline(always)]
+fn m(x: LanePdf) -> LanePdf {
+    if SQUARED { x * x } else { x }
+}
+
+#[inline(always)]
+fn m1(x: Real) -> Real {
+    if SQUARED { x * x } else { x }
+}
+
+/// What is known of the vertices up to one, k, of a subpath.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Prefix {
+    /// R_k: density of the vertices up to k in each lane, over the hero's.
+    pub ratio: LanePdf,
+    /// The same up to k − 1, and what a different way of finding vertex k − 1 adds to it.
+    pub before: LanePdf,
+    /// 1 / the hero's density of vertex k.
+    inverse_pdf: Real,
+    /// Strategies that end before k − 1, over this one, but for the density with which k would find
+    /// k − 1 from the other side (1/sr).
+    others: LanePdf,
+    /// Whether the path went on from k − 1 by a direction that can be given.
+    is_previous_connectable: bool,
+}
+
+/// A step on the way to the next vertex, whose place is not yet known.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Step {
+    ratio: LanePdf,
+    before: LanePdf,
+    pdf: Real,
+    others: LanePdf,
+    cos: Real,
+    is_connectable: bool,
+}
+
+impl Step {
+    /// From a point of the lens, by a direction of density `pdf` (1/sr). The lens cannot be met by
+    /// chance, so no strategy ends before it.
+    #[inline]
+    pub fn from_camera(pdf: Real) -> Self {
+        Self {
+            ratio: LanePdf::ONE,
+            before: LanePdf::ONE,
+            pdf,
+            others: LanePdf::ZERO,
+            cos: 0.0,
+            is_connectable: true,
+        }
+    }
+
+    /// From a lamp or the environment, whose first density is `first` and second `second`
+    /// ([`EmissionPdf`](indigo_light::EmissionPdf)), under `cos` to its normal (1 for the environment).
+    /// The camera's path can find it by itself.
+    #[inline]
+    pub fn from_light(first: Real, second: Real, cos: Real) -> Self {
+        Self {
+            ratio: LanePdf::ONE,
+            before: LanePdf::ONE,
+            pdf: second,
+            others: LanePdf::splat(m1(1.0 / first)),
+            cos,
+            is_connectable: true,
+        }
+    }
+
+    /// The next vertex at squared distance `distance2`, met under `cos` to its geometric normal.
+    #[inline]
+    pub fn arrive(&self, distance2: Real, cos: Real) -> Prefix {
+        self.prefix(distance2 / (self.pdf * cos), self.cos / distance2)
+    }
+
+    /// The next vertex is a direction of the environment.
+    #[inline]
+    pub fn arrive_at_environment(&self) -> Prefix {
+        self.prefix(1.0 / self.pdf, self.cos)
+    }
+
+    /// The next vertex is met under `cos` by light of the environment.
+    #[inline]
+    pub fn arrive_from_environment(&self, cos: Real) -> Prefix {
+        self.prefix(1.0 / (self.pdf * cos), 1.0)
+    }
+
+    #[inline]
+    fn prefix(&self, inverse_pdf: Real, back: Real) -> Prefix {
+        Prefix {
+            ratio: self.ratio,
+            before: self.before,
+            inverse_pdf,
+            others: self.others * m1(back),
+            is_previous_connectable: self.is_connectable,
+        }
+    }
+}
+
+impl Prefix {
+    /// Goes on from the vertex by a drawn direction, under `cos` to the vertex's geometric normal.
+    #[inline]
+    pub fn step(&self, drawn: &Scattered, cos: Real) -> Step {
+        let is_connectable = !drawn.is_delta;
+        let mut others = m(drawn.pdf_rev) * self.others;
+        if is_connectable && self.is_previous_connectable {
+            others += m(self.before);
+        }
+        Step {
+            ratio: self.ratio * drawn.pdf.ratio_to_hero(),
+            before: self.ratio,
+            pdf: drawn.pdf.hero(),
+            others: others * m1(self.inverse_pdf),
+            cos,
+            is_connectable,
+        }
+    }
+
+    /// Strategies that end before this vertex, over the one that ends here: `found` is the density
+    /// with which the other side finds this vertex (in the measure of its own), and `found_previous`
+    /// (1/sr) that with which this vertex then finds the one before.
+    #[inline]
+    pub fn others(&self, found: LanePdf, found_previous: LanePdf) -> LanePdf {
+        let joined = if self.is_previous_connectable { m(self.before) } else { LanePdf::ZERO };
+        m(found * self.inverse_pdf) * (joined + m(found_previous) * self.others)
+    }
+
+    /// The same for a camera path that ends on a light, which light sampling finds with density
+    /// `drawn`, and light paths with `first` and then `second` ([`EmissionPdf`](indigo_light::EmissionPdf)).
+    #[inline]
+    pub fn others_at_light(&self, drawn: Real, first: Real, second: Real) -> LanePdf {
+        let joined = if self.is_previous_connectable { m(self.before) * m1(drawn) } else { LanePdf::ZERO };
+        (joined + self.others * m1(second * first)) * m1(self.inverse_pdf)
+    }
+}
+
+/// The weight over the mean of ρ, by which f over the hero's density becomes a contribution.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Weight {
+    /// w_s.
+    pub weight: Real,
+    /// mean(ρ).
+    pub mean_ratio: Real,
+}
+
+impl Weight {
+    /// From ρ and the sum of all other strategies over this one.
+    #[inline]
+    pub fn new(ratio: LanePdf, others: LanePdf) -> Self {
+        let own = m(ratio).sum();
+        Self { weight: own / (own + others.sum()), mean_ratio: ratio.mean() }
+    }
+
+    /// Where there is but one strategy.
+    #[inline]
+    pub fn only(ratio: LanePdf) -> Self {
+        Self { weight: 1.0, mean_ratio: ratio.mean() }
+    }
+
+    /// For light that was drawn towards the end of a camera path: `met` is the density with which the
+    /// path would have met it over that of drawing it, and `emitted` the same of its emission.
+    #[inline]
+    pub fn drawn_light(ratio: LanePdf, met: LanePdf, others_camera: LanePdf, emitted: Real) -> Self {
+        Self::new(ratio, m(ratio * met) + others_camera * m1(emitted))
+    }
+
+    /// For a joint of two subpaths with the sums of their other strategies.
+    #[inline]
+    pub fn joint(a: LanePdf, others_a: LanePdf, b: LanePdf, others_b: LanePdf) -> Self {
+        Self::new(a * b, others_a * m(b) + others_b * m(a))
+    }
+
+    /// Factor of f over the hero's density.
+    #[inline]
+    pub fn factor(self) -> Real {
+        self.weight / self.mean_ratio
+    }
+}

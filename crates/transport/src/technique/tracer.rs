@@ -1,0 +1,69 @@
+//! The techniques behind one door.
+
+use super::bidirectional::Bidirectional;
+use super::{Events, PathSample, Record, Splat, path};
+use crate::sampler::{Block, PrimarySample};
+use indigo_film::Sensor;
+use indigo_math::{Real, Vec2};
+use indigo_scene::Scene;
+use indigo_spectrum::SampledWavelengths;
+
+/// A technique with the memory that it needs.
+#[derive(Clone, Debug)]
+pub enum Tracer {
+    /// Path tracing.
+    Path,
+    /// Bidirectional path tracing.
+    Bidirectional(Box<Bidirectional>),
+}
+
+/// What a sample found, and how to make it a colour.
+#[derive(Clone, Copy, Debug)]
+pub struct Found {
+    /// Light along the camera ray.
+    pub path: PathSample,
+    /// The sensor at the sample's wavelengths.
+    pub sensor: Sensor,
+}
+
+impl Tracer {
+    /// The technique that a scene asks for. The part `rendered` of its film gets camera paths.
+    pub fn new(is_bidirectional: bool, rendered: Real) -> Self {
+        if is_bidirectional {
+            Self::Bidirectional(Box::new(Bidirectional::new(rendered)))
+        } else {
+            Self::Path
+        }
+    }
+
+    /// Traces the paths of a primary sample whose camera ray comes from a position on the film, from
+    /// (0, 0), top left, to (1, 1).
+    #[inline]
+    pub fn trace(
+        &mut self,
+        scene: &Scene,
+        numbers: &mut impl PrimarySample,
+        position: Vec2,
+        events: Events,
+        record: &mut impl Record,
+    ) -> Found {
+        let [.., wavelength, _] = numbers.block(Block::FILM);
+        let lambda = SampledWavelengths::sample(wavelength);
+        let [x, y, ..] = numbers.block(Block::LENS);
+        let camera = scene.camera.ray(position, Vec2::new(x, y));
+        let path = match self {
+            Self::Path => path::trace(scene, numbers, &lambda, &camera, events),
+            Self::Bidirectional(b) => b.trace(scene, numbers, &lambda, &camera, events, record),
+        };
+        Found { path, sensor: Sensor::new(&lambda) }
+    }
+
+    /// What the last sample put elsewhere on the film than where its camera ray came from.
+    #[inline]
+    pub fn splats(&self) -> &[Splat] {
+        match self {
+            Self::Path => &[],
+            Self::Bidirectional(b) => b.splats(),
+        }
+    }
+}
