@@ -18,7 +18,7 @@
 pub mod chi2;
 mod domain;
 pub mod image;
-mod png;
+pub mod png;
 pub mod quadrature;
 pub mod rng;
 pub mod special;

@@ -6,7 +6,7 @@ use std::io::{self, Write};
 const STORED_MAX: usize = 65_535;
 
 /// Writes rows of interleaved RGB bytes, each `width` pixels, as a PNG (ISO/IEC 15948).
-pub(crate) fn write_rgb(width: usize, rows: &[&[u8]], sink: &mut dyn Write) -> io::Result<()> {
+pub fn write_rgb(width: usize, rows: &[&[u8]], sink: &mut dyn Write) -> io::Result<()> {
     let size = |n: usize| u32::try_from(n).map_err(|_| io::Error::from(io::ErrorKind::InvalidInput));
     let mut header = Vec::with_capacity(13);
     header.extend(size(width)?.to_be_bytes());

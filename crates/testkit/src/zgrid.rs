@@ -17,6 +17,8 @@ use crate::ztest::{DEFAULT_THRESHOLD, MeanTest, welch};
 pub struct BlockGrid {
     columns: usize,
     blocks: Vec<Moments>,
+    /// Means over all blocks of each batch; empty where the grid was not made from batches.
+    whole: Moments,
 }
 
 /// Why images or grids cannot be compared.
@@ -40,7 +42,7 @@ impl ShapeError {
 impl BlockGrid {
     /// An empty grid of `columns` x `rows` blocks.
     pub fn new(columns: usize, rows: usize) -> Self {
-        Self { columns, blocks: vec![Moments::default(); columns * rows] }
+        Self { columns, blocks: vec![Moments::default(); columns * rows], whole: Moments::default() }
     }
 
     /// A grid from moments in row order, e.g. read from a stored reference.
@@ -48,7 +50,7 @@ impl BlockGrid {
         if columns == 0 || blocks.is_empty() || !blocks.len().is_multiple_of(columns) {
             return Err(ShapeError::new(format!("{} blocks are no grid of {columns} columns", blocks.len())));
         }
-        Ok(Self { columns, blocks })
+        Ok(Self { columns, blocks, whole: Moments::default() })
     }
 
     /// Adds one batch: the mean of each block, in row order, of one independent rendering.
@@ -63,12 +65,19 @@ impl BlockGrid {
         for (block, &mean) in self.blocks.iter_mut().zip(block_means) {
             block.add(mean);
         }
+        self.whole.add(block_means.iter().sum::<f64>() / block_means.len() as f64);
         Ok(())
     }
 
     /// The moments of each block, in row order.
     pub fn blocks(&self) -> &[Moments] {
         &self.blocks
+    }
+
+    /// Moments of the mean over all blocks. From the batches where there are any: their blocks may be
+    /// correlated, as those of a Markov chain are.
+    fn whole(&self) -> Moments {
+        if self.whole.count() > 1 { self.whole } else { pooled(&self.blocks) }
     }
 
     /// Blocks side by side.
@@ -150,7 +159,7 @@ impl ZGrid {
             tests: tests.len(),
             worst_block: (worst % a.columns, worst / a.columns),
             worst: tests[worst],
-            overall: self.test(&pooled(&a.blocks), &pooled(&b.blocks)).at(level),
+            overall: self.test(&a.whole(), &b.whole()).at(level),
             failed_blocks: tests.iter().filter(|test| !test.passed()).count(),
             t: tests.iter().map(|test| test.t).collect(),
         })

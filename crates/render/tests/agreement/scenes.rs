@@ -1,0 +1,178 @@
+//! Scenes for the grid: small, each with something that one mode could get wrong.
+
+use super::SIDE;
+use super::common::scene;
+use super::common::shapes::{Mesh, add, mesh_light, model};
+use super::common::text::{
+    background, camera, diffuse, flat_camera, grey, null, scene_file, settings, uniform,
+};
+use indigo_scene::Scene;
+
+const SPECTRUM_D65: &str = "<blackbody><temperature>6500</temperature><gain>1e-9</gain></blackbody>";
+
+/// A square of a given half side whose front looks along an axis, `d` away from the origin.
+fn wall(towards: [f64; 3], d: f64, half: f64) -> Mesh {
+    let n = towards;
+    let u = if n[0].abs() > 0.5 { [0.0, 1.0, 0.0] } else { [1.0, 0.0, 0.0] };
+    let v = super::common::shapes::cross(n, u);
+    let at = n.map(|x| -x * d);
+    let corner = |a: f64, b: f64| add(at, add(u.map(|x| x * a * half), v.map(|x| x * b * half)));
+    Mesh::polygon(vec![corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)])
+}
+
+/// A room of side 2 round the origin, open towards the camera at -y, with a block in it.
+fn room(walls: [&str; 4]) -> Vec<String> {
+    let [floor, left, right, rest] = walls;
+    let sides = [
+        ("floor", [0.0, 0.0, 1.0], floor),
+        ("ceiling", [0.0, 0.0, -1.0], rest),
+        ("left", [1.0, 0.0, 0.0], left),
+        ("right", [-1.0, 0.0, 0.0], right),
+        ("back", [0.0, -1.0, 0.0], rest),
+    ];
+    let mut parts = vec![];
+    for (name, towards, material) in sides {
+        parts.extend([wall(towards, 1.0, 1.0).text(name, material), model(name)]);
+    }
+    parts
+}
+
+fn block(material: &str) -> Vec<String> {
+    let mut block = Mesh::cube(0.3);
+    for p in &mut block.points {
+        let (c, s) = (0.9, 0.43);
+        *p = [c * p[0] - s * p[1] + 0.3, s * p[0] + c * p[1] + 0.2, p[2] - 0.69];
+    }
+    vec![block.text("block", material), model("block")]
+}
+
+fn lamp(half: f64, radiance: f64) -> Vec<String> {
+    vec![
+        wall([0.0, 0.0, -1.0], 0.98, half).text("lamp", "black"),
+        mesh_light("lamp", &uniform(radiance), [0.0; 3], 1.0, ""),
+    ]
+}
+
+fn view() -> String {
+    flat_camera([0.0, -3.6, 0.0], [0.0, 1.0, 0.0], 0.42)
+}
+
+fn build(parts: Vec<Vec<String>>) -> Scene {
+    scene(&scene_file(&parts.concat()))
+}
+
+fn common(camera: String) -> Vec<String> {
+    vec![settings(SIDE, ""), camera, grey("white", 0.7), grey("grey", 0.4), grey("black", 0.0)]
+}
+
+pub fn diffuse_box() -> Scene {
+    build(vec![common(view()), room(["white"; 4]), block("grey"), lamp(0.3, 1e5)])
+}
+
+/// Behind the camera: seen directly, it would be all that Metropolis sampling knows of.
+pub fn small_light() -> Scene {
+    let lamp = vec![
+        wall([0.0, 1.0, 0.0], 4.5, 0.01).text("lamp", "black"),
+        mesh_light("lamp", &uniform(1e9), [0.0; 3], 1.0, ""),
+    ];
+    build(vec![common(view()), room(["white"; 4]), block("white"), lamp])
+}
+
+/// Lamps of very different size and power, some hidden, one with its back to the room.
+pub fn many_lights() -> Scene {
+    let mut lamps = vec![];
+    for i in 0..6u32 {
+        let size = 0.02 + 0.03 * f64::from(i);
+        let towards = if i == 3 { [0.0, 0.0, 1.0] } else { [0.0, 0.0, -1.0] };
+        let pos = [-0.8 + 0.3 * f64::from(i), 0.3 - 0.15 * f64::from(i), if i == 5 { -1.5 } else { 0.0 }];
+        let name = format!("lamp{i}");
+        lamps.push(wall(towards, 0.9, size).text(&name, "white"));
+        lamps.push(mesh_light(&name, &uniform(2e5 / f64::from(i + 1)), pos, 1.0, ""));
+    }
+    build(vec![common(view()), room(["white"; 4]), block("grey"), lamps])
+}
+
+pub fn environment_only() -> Scene {
+    build(vec![common(view()), room(["white"; 4]), block("white"), vec![background(&uniform(1e4))]])
+}
+
+pub fn environment_and_lamp() -> Scene {
+    build(vec![
+        common(view()),
+        room(["white"; 4]),
+        block("white"),
+        lamp(0.2, 1e5),
+        vec![background(&uniform(1e3))],
+    ])
+}
+
+/// A lens as wide as the room, focused before it, with natural vignetting.
+pub fn thin_lens_out_of_focus() -> Scene {
+    let lens = camera([0.0, -3.6, 0.0], [0.0, 1.0, 0.0], 0.42, "")
+        .replace("<aperture_radius>1e-5</aperture_radius>", "<aperture_radius>0.4</aperture_radius>")
+        .replace("<focus_distance>1</focus_distance>", "<focus_distance>2.5</focus_distance>");
+    build(vec![common(lens), room(["white"; 4]), block("grey"), lamp(0.3, 1e5)])
+}
+
+/// Vertex normals of a coarse ball lean far from its triangles' own.
+pub fn smoothed_normals() -> Scene {
+    let ball = |center: [f64; 3], radius: f64, name: &str| {
+        let mut mesh = Mesh::ball(1);
+        for p in &mut mesh.points {
+            *p = add(p.map(|x| x * radius), center);
+        }
+        let text = mesh.text(name, "white");
+        let smooth = text.replace(
+            "<normal_smoothing>false</normal_smoothing>",
+            "<normal_smoothing>true</normal_smoothing>",
+        );
+        assert_ne!(text, smooth);
+        vec![smooth, model(name)]
+    };
+    build(vec![
+        common(view()),
+        room(["white"; 4]),
+        ball([-0.4, 0.2, -0.5], 0.45, "ball"),
+        ball([0.5, -0.1, 0.3], 0.35, "other"),
+        lamp(0.3, 1e5),
+    ])
+}
+
+pub fn coloured_walls_and_lamps() -> Scene {
+    let rgb = |c: &str| format!("<rgb><rgb>{c}</rgb><gamma>1</gamma></rgb>");
+    let narrow = "<peak><peak_min>580</peak_min><peak_width>20</peak_width><base_value>1e3</base_value><peak_value>2e6</peak_value></peak>";
+    build(vec![
+        common(view()),
+        vec![diffuse("red", &rgb("0.8 0.05 0.05")), diffuse("green", &rgb("0.05 0.6 0.1"))],
+        vec![diffuse("blue", &rgb("0.05 0.1 0.7"))],
+        room(["white", "red", "green", "blue"]),
+        block("white"),
+        vec![
+            wall([0.0, 0.0, -1.0], 0.98, 0.2).text("lamp", "black"),
+            mesh_light("lamp", SPECTRUM_D65, [0.5, 0.0, 0.0], 1.0, ""),
+            wall([0.0, 0.0, -1.0], 0.97, 0.05).text("sodium", "black"),
+            mesh_light("sodium", narrow, [-0.5, 0.0, 0.0], 1.0, ""),
+        ],
+    ])
+}
+
+/// Surfaces that do nothing, before the lamp, the camera and the walls.
+pub fn invisible_surfaces() -> Scene {
+    build(vec![
+        common(view()),
+        vec![null("nothing")],
+        room(["white"; 4]),
+        block("white"),
+        vec![wall([0.0, 0.0, 1.0], -0.7, 0.9).text("below", "nothing"), model("below")],
+        vec![wall([0.0, 1.0, 0.0], 0.4, 0.9).text("across", "nothing"), model("across")],
+        vec![wall([0.0, 1.0, 0.0], 2.4, 2.0).text("before", "nothing"), model("before")],
+        lamp(0.2, 1e5),
+    ])
+}
+
+/// Only one scattering event: nothing may be counted twice where few strategies remain.
+pub fn single_scattering_only() -> Scene {
+    let mut scene = diffuse_box();
+    scene.transport.max_depth = 1;
+    scene
+}
