@@ -13,6 +13,7 @@ pub struct AreaLight {
     triangles: Vec<EmitterTriangle>,
     by_area: AliasTable,
     area_m2: f64,
+    pdf_area: Real,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -53,7 +54,9 @@ impl AreaLight {
                 }
             })
             .collect();
-        Self { radiance, triangles, by_area: AliasTable::new(&areas), area_m2: areas.iter().sum() }
+        let area_m2: f64 = areas.iter().sum();
+        let pdf_area = (1.0 / area_m2) as Real;
+        Self { radiance, triangles, by_area: AliasTable::new(&areas), area_m2, pdf_area }
     }
 
     /// Emitting area in m².
@@ -69,7 +72,7 @@ impl AreaLight {
     /// Density of [`sample`](Self::sample) over area (1/m²).
     #[inline]
     pub fn pdf_area(&self) -> Real {
-        (1.0 / self.area_m2) as Real
+        self.pdf_area
     }
 
     /// A point uniform over the area; `None` where there is no area.

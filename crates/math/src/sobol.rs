@@ -12,8 +12,9 @@ use crate::rng::to_unit;
 /// initial numbers (Joe & Kuo 2008, table new-joe-kuo-6). Dimension 1 is the van der Corput sequence.
 const PRIMITIVES: [(u32, u32, [u32; 3]); 3] = [(1, 0, [1, 0, 0]), (2, 1, [1, 3, 0]), (3, 1, [1, 3, 1])];
 
-/// `TABLES[d][byte][value]`: the exclusive or of the direction numbers that one byte of the index selects.
-static TABLES: [[[u32; 256]; 4]; 4] = byte_tables();
+/// `TABLES[byte][value][d]`: the exclusive or of the direction numbers that one byte of the index
+/// selects, with their bits in reverse order, as the scrambling wants them.
+static TABLES: [[[u32; 4]; 256]; 4] = byte_tables();
 
 const fn directions(dimension: usize) -> [u32; 32] {
     let mut v = [0u32; 32];
@@ -46,8 +47,8 @@ const fn directions(dimension: usize) -> [u32; 32] {
     v
 }
 
-const fn byte_tables() -> [[[u32; 256]; 4]; 4] {
-    let mut t = [[[0u32; 256]; 4]; 4];
+const fn byte_tables() -> [[[u32; 4]; 256]; 4] {
+    let mut t = [[[0u32; 4]; 256]; 4];
     let mut d = 0;
     while d < 4 {
         let v = directions(d);
@@ -56,7 +57,7 @@ const fn byte_tables() -> [[[u32; 256]; 4]; 4] {
             let mut value = 1;
             while value < 256usize {
                 let low = value.trailing_zeros() as usize;
-                t[d][byte][value] = t[d][byte][value & (value - 1)] ^ v[byte * 8 + low];
+                t[byte][value][d] = t[byte][value & (value - 1)][d] ^ v[byte * 8 + low].reverse_bits();
                 value += 1;
             }
             byte += 1;
@@ -66,11 +67,13 @@ const fn byte_tables() -> [[[u32; 256]; 4]; 4] {
     t
 }
 
+/// Point `index` of the first four dimensions, least significant digit first.
 #[inline]
-fn sobol(index: u32, dimension: usize) -> u32 {
-    let t = &TABLES[dimension];
+fn sobol_reversed(index: u32) -> [u32; 4] {
     let [a, b, c, d] = index.to_le_bytes();
-    t[0][a as usize] ^ t[1][b as usize] ^ t[2][c as usize] ^ t[3][d as usize]
+    let rows =
+        [&TABLES[0][a as usize], &TABLES[1][b as usize], &TABLES[2][c as usize], &TABLES[3][d as usize]];
+    std::array::from_fn(|i| rows[0][i] ^ rows[1][i] ^ rows[2][i] ^ rows[3][i])
 }
 
 /// A hash that lets each bit be changed only by lower ones (Laine & Karras 2011, with the constants that
@@ -85,22 +88,17 @@ fn laine_karras(mut x: u32, seed: u32) -> u32 {
     x
 }
 
-/// Owen's nested uniform scrambling of the binary digits of `x`, most significant first.
-#[inline]
-fn owen(x: u32, seed: u32) -> u32 {
-    laine_karras(x.reverse_bits(), seed).reverse_bits()
-}
-
 /// Four numbers in [0, 1): point `index` of the block that `key` names.
 #[inline]
 pub fn block4(key: u64, index: u32) -> [Real; 4] {
     let (lo, hi) = (key as u32, (key >> 32) as u32);
     // Shuffling keeps every aligned power-of-two run of indices a run.
     let shuffled = laine_karras(index.reverse_bits(), lo).reverse_bits();
-    std::array::from_fn(|d| {
-        let seed = hi ^ (d as u32 + 1).wrapping_mul(0x9E37_79B9);
-        to_unit(owen(sobol(shuffled, d), mix32(seed)))
-    })
+    // Owen's nested uniform scrambling of the digits, most significant first.
+    let point = sobol_reversed(shuffled);
+    let seeds: [u32; 4] = std::array::from_fn(|d| mix32(hi ^ (d as u32 + 1).wrapping_mul(0x9E37_79B9)));
+    let scrambled: [u32; 4] = std::array::from_fn(|d| laine_karras(point[d], seeds[d]).reverse_bits());
+    scrambled.map(to_unit)
 }
 
 /// Mixes 32 bits (Wellons 2018, "lowbias32").

@@ -10,7 +10,7 @@ use crate::wide::{Child, Node};
 /// Cost of testing a node's eight boxes.
 const NODE_COST: f32 = 1.0;
 /// Cost of testing one block of primitives.
-const BLOCK_COST: f32 = 0.7;
+const BLOCK_COST: f32 = 0.5;
 
 /// Below this many nodes a subtree is planned by one thread.
 const PARALLEL: usize = 8192;

@@ -5,7 +5,7 @@
 //! Ray/Triangle Intersection", JCGT 2(1), 2013; an edge function of exactly 0 counts as inside on
 //! both sides, so no fallback to double precision is needed for watertightness.
 
-use super::raw::{Stack, block_at, node_at, place};
+use super::raw::{ROW, Stack, block_at, node_at, place, row_at};
 use crate::ray::Ray;
 use crate::wide::{Block, Child, Node};
 use indigo_math::Float;
@@ -142,7 +142,7 @@ pub(crate) trait Specials<T> {
 struct BoxTest<L> {
     origin: [L; 3],
     inverse: [L; 3],
-    /// Rows of `Node::bounds` that the ray enters first, an axis each.
+    /// Where in `Node::bounds` the planes are that the ray enters first, an axis each, in bytes.
     near: [usize; 3],
     /// The inverse direction for the planes through which the ray leaves, enlarged.
     inverse_far: [L; 3],
@@ -158,7 +158,7 @@ impl<L: Lanes> BoxTest<L> {
         Self {
             origin: ray.o.map(L::splat),
             inverse: inverse.map(L::splat),
-            near: std::array::from_fn(|i| 2 * i + usize::from(inverse[i] < L::Scalar::ZERO)),
+            near: std::array::from_fn(|i| ROW * (2 * i + usize::from(inverse[i] < L::Scalar::ZERO))),
             t_min: L::splat(ray.t_min),
             inverse_far: inverse.map(|r| L::splat(r * L::Scalar::ENLARGE)),
         }
@@ -167,9 +167,9 @@ impl<L: Lanes> BoxTest<L> {
     /// Distances at which the eight boxes are entered, and which of them are met before `t_max`.
     #[inline(always)]
     fn test(&self, node: &Node, t_max: L) -> (L, u32) {
-        let plane = |axis: usize, row: usize| L::load(place(&node.bounds, row)).sub(self.origin[axis]);
+        let plane = |axis: usize, offset: usize| L::load(row_at(node, offset)).sub(self.origin[axis]);
         let near = |axis: usize| plane(axis, self.near[axis]).mul(self.inverse[axis]);
-        let far = |axis: usize| plane(axis, self.near[axis] ^ 1).mul(self.inverse_far[axis]);
+        let far = |axis: usize| plane(axis, self.near[axis] ^ ROW).mul(self.inverse_far[axis]);
         let enter = near(0).max(near(1)).max(near(2).max(self.t_min));
         let leave = far(0).min(far(1)).min(far(2).min(t_max));
         (enter, enter.le(leave))

@@ -12,8 +12,8 @@ use std::mem::MaybeUninit;
 #[inline(always)]
 pub(super) fn place<T, const N: usize>(array: &[T; N], i: usize) -> &T {
     debug_assert!(i < N);
-    // SAFETY: callers pass the index of a set bit of an 8-bit mask into an array of 8, an axis into
-    // an array of 3, or 2·axis + side into an array of 6.
+    // SAFETY: callers pass the index of a set bit of an 8-bit mask into an array of 8, or an axis
+    // into an array of 3.
     unsafe { array.get_unchecked(i) }
 }
 
@@ -24,6 +24,18 @@ pub(super) fn node_at(nodes: &[Node], child: Child) -> &Node {
     // SAFETY: a `View` is only made of trees whose children all lie inside it (builders make it so,
     // `cache` checks it), and unused places have empty boxes, which no ray meets.
     unsafe { nodes.get_unchecked(child.0 as usize) }
+}
+
+/// Bytes of one row of `Node::bounds`.
+pub(super) const ROW: usize = size_of::<[f32; 8]>();
+
+/// The row of a node's bounds that begins so many bytes in, a multiple of [`ROW`].
+#[inline(always)]
+pub(super) fn row_at(node: &Node, offset: usize) -> &[f32; 8] {
+    debug_assert!(offset < 6 * ROW && offset % ROW == 0);
+    // SAFETY: callers pass ROW · (2·axis + side), so the row lies inside `bounds`. An index instead
+    // of bytes would be multiplied anew for every node.
+    unsafe { &*(&raw const node.bounds).byte_add(offset).cast::<[f32; 8]>() }
 }
 
 /// Block `i` of a leaf.
