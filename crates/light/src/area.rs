@@ -1,9 +1,10 @@
-//! Emitters made of triangles: mesh lights and rectangles.
+//! Lamps made of triangles: mesh lights and rectangles.
 
+use crate::query::EmitterPoint;
 use indigo_math::distribution::AliasTable;
-use indigo_math::warp::uniform_triangle;
-use indigo_math::{Real, Vec2, Vec3, Vec3d};
-use indigo_spectrum::Spectrum;
+use indigo_math::warp::{cosine_hemisphere, cosine_hemisphere_pdf, uniform_triangle};
+use indigo_math::{Frame, Real, Vec2, Vec3, Vec3d};
+use indigo_spectrum::{SampledSpectrum, SampledWavelengths, Spectrum};
 
 /// Triangles that all emit the same radiance from their front, evenly over area and direction.
 #[derive(Clone, Debug)]
@@ -24,24 +25,13 @@ struct EmitterTriangle {
     normal: Vec3,
 }
 
-/// A point drawn on an emitter.
-#[derive(Clone, Copy, Debug)]
-pub struct EmitterPoint {
-    /// Render-space position.
-    pub p: Vec3,
-    /// Bound on the rounding error of `p`, for each axis.
-    pub p_error: Vec3,
-    /// Unit normal of the emitting side.
-    pub n: Vec3,
-}
-
 impl AreaLight {
-    /// From corners in render space, counter-clockwise seen from the front.
+    /// From corners in render space, counter-clockwise seen from the front, one for each triangle of
+    /// the lamp's mesh.
     pub fn new(radiance: Spectrum, corners: &[[Vec3d; 3]]) -> Self {
         let area = |c: &[Vec3d; 3]| 0.5 * (c[1] - c[0]).cross(c[2] - c[0]).length();
-        let solid: Vec<&[Vec3d; 3]> = corners.iter().filter(|c| area(c) > 0.0).collect();
-        let areas: Vec<f64> = solid.iter().map(|c| area(c)).collect();
-        let triangles = solid
+        let areas: Vec<f64> = corners.iter().map(area).map(|a| if a.is_finite() { a } else { 0.0 }).collect();
+        let triangles = corners
             .iter()
             .map(|c| {
                 let (e1, e2) = (c[1] - c[0], c[2] - c[0]);
@@ -69,16 +59,22 @@ impl AreaLight {
         std::f64::consts::PI * self.area_m2 * self.radiance.luminance()
     }
 
-    /// Density of [`sample`](Self::sample) over area (1/m²).
+    /// Radiance that leaves a point of a triangle in a unit direction of its front.
     #[inline]
-    pub fn pdf_area(&self) -> Real {
-        self.pdf_area
+    pub(crate) fn emitted(
+        &self,
+        _triangle: u32,
+        _bary: (Real, Real),
+        _wo: Vec3,
+        lambda: &SampledWavelengths,
+    ) -> SampledSpectrum {
+        self.radiance.eval(lambda)
     }
 
-    /// A point uniform over the area; `None` where there is no area.
+    /// A point, with density [`pdf_point`](Self::pdf_point); `None` where there is no area.
     #[inline]
-    pub fn sample(&self, u: [Real; 3]) -> Option<EmitterPoint> {
-        if self.triangles.is_empty() {
+    pub(crate) fn sample_point(&self, u: [Real; 3]) -> Option<EmitterPoint> {
+        if self.area_m2 == 0.0 {
             return None;
         }
         let (i, _, _) = self.by_area.sample(u[0]);
@@ -87,7 +83,26 @@ impl AreaLight {
         let (a, b) = (t.edge1 * b1, t.edge2 * b2);
         // Two products and two sums, each rounded once, of magnitudes that the terms bound.
         let p_error = (t.corner.abs() + a.abs() + b.abs()) * (4.0 * Real::EPSILON);
-        Some(EmitterPoint { p: t.corner + a + b, p_error, n: t.normal })
+        Some(EmitterPoint { p: t.corner + a + b, p_error, n: t.normal, triangle: i as u32, bary: (b1, b2) })
+    }
+
+    /// Density of [`sample_point`](Self::sample_point) over area (1/m²).
+    #[inline]
+    pub(crate) fn pdf_point(&self, _triangle: u32, _bary: (Real, Real)) -> Real {
+        self.pdf_area
+    }
+
+    /// A direction in which light leaves a point, with density
+    /// [`pdf_direction`](Self::pdf_direction).
+    #[inline]
+    pub(crate) fn sample_direction(at: &EmitterPoint, v: [Real; 2]) -> Vec3 {
+        Frame::from_normal(at.n).to_world(cosine_hemisphere(v.into()))
+    }
+
+    /// Density (1/sr) of [`sample_direction`](Self::sample_direction) where the front's unit normal is `n`.
+    #[inline]
+    pub(crate) fn pdf_direction(n: Vec3, wo: Vec3) -> Real {
+        cosine_hemisphere_pdf(wo.dot(n))
     }
 }
 
@@ -102,9 +117,9 @@ mod tests {
         AreaLight::new(
             Spectrum::uniform(3.0),
             &[
+                [v(0.0, 0.0, 5.0), v(0.0, 1.0, 5.0), v(0.0, 2.0, 5.0)],
                 [v(0.0, 0.0, 0.0), v(2.0, 0.0, 0.0), v(0.0, 2.0, 0.0)],
                 [v(0.0, 0.0, 1.0), v(0.0, 1.0, 1.0), v(1.0, 0.0, 1.0)],
-                [v(0.0, 0.0, 5.0), v(0.0, 1.0, 5.0), v(0.0, 2.0, 5.0)],
             ],
         )
     }
@@ -114,14 +129,15 @@ mod tests {
     fn points_are_uniform_over_the_area_and_normals_follow_the_winding() {
         let light = two_triangles();
         assert!((light.area() - 2.5).abs() < 1e-12);
-        assert!((light.pdf_area() - 0.4).abs() < 1e-6);
+        assert!((light.pdf_point(1, (0.5, 0.5)) - 0.4).abs() < 1e-6);
         let mut rng = Rng::new(5);
         let n = 100_000;
         let (mut upper, mut x) = (0.0, 0.0);
         for _ in 0..n {
-            let p = light.sample([rng.next_real(), rng.next_real(), rng.next_real()]).unwrap();
+            let p = light.sample_point([rng.next_real(), rng.next_real(), rng.next_real()]).unwrap();
             let is_upper = p.p.z > 0.5;
             assert_eq!(p.n.z, if is_upper { -1.0 } else { 1.0 });
+            assert_eq!(p.triangle, if is_upper { 2 } else { 1 });
             upper += f64::from(u8::from(is_upper));
             x += f64::from(u8::from(!is_upper)) * p.p.x as f64;
         }
@@ -138,6 +154,6 @@ mod tests {
 
     #[test]
     fn no_area_no_point() {
-        assert!(AreaLight::new(Spectrum::uniform(1.0), &[]).sample([0.5; 3]).is_none());
+        assert!(AreaLight::new(Spectrum::uniform(1.0), &[]).sample_point([0.5; 3]).is_none());
     }
 }

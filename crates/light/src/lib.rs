@@ -1,8 +1,12 @@
 //! Where light comes from: the kinds of light, and a table of all lights to draw from.
 
 mod area;
+mod environment;
 pub mod kinds;
+mod query;
 mod table;
 
-pub use area::{AreaLight, EmitterPoint};
-pub use table::{Emission, EmissionPdf, Light, LightSample, LightTable};
+pub use area::AreaLight;
+pub use kinds::{Distant, DistantLight};
+pub use query::{Emission, EmissionPdf, EmitterHit, EmitterPoint, LightSample, Receiver};
+pub use table::LightTable;

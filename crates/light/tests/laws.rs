@@ -2,7 +2,8 @@
 //!
 //! Statistical tests share a false-alarm probability of 1e-4; seeds are fixed.
 
-use indigo_light::{AreaLight, Light, LightSample, LightTable};
+use indigo_light::kinds::background::Background;
+use indigo_light::{AreaLight, Distant, DistantLight, EmitterHit, LightSample, LightTable, Receiver};
 use indigo_math::{Real, Vec3, Vec3d};
 use indigo_spectrum::{SampledWavelengths, Spectrum};
 use indigo_testkit::chi2::{Chi2, Domain};
@@ -39,12 +40,12 @@ impl Square {
         [[c(-1.0, -1.0), c(1.0, -1.0), c(1.0, 1.0)], [c(-1.0, -1.0), c(1.0, 1.0), c(-1.0, 1.0)]]
     }
 
-    fn light(&self) -> Light {
-        Light::Area(AreaLight::new(Spectrum::uniform(self.radiance), &self.corners()))
+    fn light(&self) -> AreaLight {
+        AreaLight::new(Spectrum::uniform(self.radiance), &self.corners())
     }
 
-    /// Squared distance and cosine at which a direction from the origin meets it.
-    fn meet(&self, d: Vec3d) -> Option<(f64, f64)> {
+    /// Where a direction from the origin meets it, as part of an object.
+    fn meet(&self, d: Vec3d, object: u32) -> Option<EmitterHit> {
         let [u, v, n] = self.axes;
         let cos = -d.dot(n);
         if cos <= 0.0 {
@@ -53,7 +54,17 @@ impl Square {
         let t = -self.at.dot(n) / cos;
         let p = d * t - self.at;
         let inside = |x: f64| x.abs() <= self.half;
-        (inside(p.dot(u)) && inside(p.dot(v))).then_some((t * t, cos))
+        let (x, y) = (p.dot(u) / self.half, p.dot(v) / self.half);
+        // Corners (-1, -1), (1, -1), (1, 1) and (-1, -1), (1, 1), (-1, 1).
+        let (triangle, bary) =
+            if y < x { (0, (0.5 * (x - y), 0.5 * (y + 1.0))) } else { (1, (0.5 * (x + 1.0), 0.5 * (y - x))) };
+        (inside(p.dot(u)) && inside(p.dot(v))).then(|| EmitterHit {
+            object,
+            triangle,
+            bary: (bary.0 as Real, bary.1 as Real),
+            p: (d * t).cast(),
+            n: n.cast(),
+        })
     }
 }
 
@@ -69,14 +80,11 @@ fn squares() -> [Square; 3] {
 const SKY: f64 = 0.8;
 
 fn table(with_sky: bool) -> LightTable {
-    let mut lights: Vec<Light> = squares().iter().map(Square::light).collect();
-    if with_sky {
-        lights.insert(1, Light::Background(Spectrum::uniform(SKY)));
-    }
+    let lamps: Vec<AreaLight> = squares().iter().map(Square::light).collect();
+    let sky = || Background(Spectrum::uniform(SKY)).into();
     // Objects: one that is no light, then the squares.
-    let numbers: [Option<u32>; 4] =
-        if with_sky { [None, Some(0), Some(2), Some(3)] } else { [None, Some(0), Some(1), Some(2)] };
-    LightTable::new(lights, numbers.into_iter(), (Vec3d::ZERO, 2.0))
+    let numbers = [None, Some(0), Some(1), Some(2)];
+    LightTable::new(lamps, with_sky.then(sky).into_iter().collect(), numbers.into_iter(), (Vec3d::ZERO, 2.0))
 }
 
 fn wavelengths() -> SampledWavelengths {
@@ -85,7 +93,7 @@ fn wavelengths() -> SampledWavelengths {
 
 fn draw(table: &LightTable, rng: &mut Rng) -> Option<LightSample> {
     let u = [0; 3].map(|_| rng.uniform_f32() as Real);
-    table.sample(P, N, u, &wavelengths())
+    table.sample(&Receiver::facing(P, N), u, &wavelengths())
 }
 
 fn cast(d: [f64; 3]) -> Vec3d {
@@ -99,11 +107,11 @@ fn density(table: &LightTable, squares: &[Square], d: [f64; 3]) -> f64 {
         .iter()
         .enumerate()
         .filter_map(|(i, s)| {
-            let (distance2, cos) = s.meet(d)?;
-            Some(table.pdf_object(1 + i as u32, distance2 as Real, cos as Real) as f64)
+            let hit = s.meet(d, 1 + i as u32)?;
+            Some(table.pdf_object(&hit, &Receiver::facing(P, N)) as f64)
         })
         .sum();
-    of_squares + table.pdf_environment(N, d.cast()) as f64
+    of_squares + table.pdf_environment(&Receiver::facing(P, N), d.cast()) as f64
 }
 
 /// The density of a direction is the sum over all lights that lie in it, whatever hides what.
@@ -127,7 +135,7 @@ fn a_draw_reports_its_light_and_its_density() {
         assert!((s.wi.length() - 1.0).abs() < 1e-5);
         let d: Vec3d = s.wi.cast();
         let Some(point) = s.point else {
-            let expected = table.pdf_environment(N, s.wi);
+            let expected = table.pdf_environment(&Receiver::facing(P, N), s.wi);
             assert!((s.pdf - expected).abs() <= 1e-5 * expected && s.radiance.hero() == SKY as Real);
             continue;
         };
@@ -137,8 +145,12 @@ fn a_draw_reports_its_light_and_its_density() {
             .expect("one of the squares");
         assert_eq!(s.radiance.hero(), squares[hit].radiance as Real);
         assert!((point.p.normalized() - s.wi).length() < 1e-5);
-        let cos = -d.dot(point.n.cast());
-        let expected = table.pdf_object(1 + hit as u32, point.p.length2(), cos as Real);
+        let (object, triangle, bary) = (1 + hit as u32, point.triangle, point.bary);
+        let met = squares[hit].meet(d, object).expect("the square that was drawn");
+        assert_eq!(met.triangle, triangle);
+        assert!((met.bary.0 - bary.0).abs() < 1e-4 && (met.bary.1 - bary.1).abs() < 1e-4);
+        let hit = EmitterHit { object, triangle, bary, p: point.p, n: point.n };
+        let expected = table.pdf_object(&hit, &Receiver::facing(P, N));
         assert!((s.pdf - expected).abs() <= 1e-4 * expected, "{} {expected}", s.pdf);
     }
 }
@@ -152,7 +164,7 @@ fn drawn_light_estimates_the_irradiance() {
         let integral: f64 = shown
             .iter()
             .map(|s| {
-                let radiance = |d: [f64; 3]| s.meet(cast(d)).map_or(0.0, |_| s.radiance * d[2]);
+                let radiance = |d: [f64; 3]| s.meet(cast(d), 0).map_or(0.0, |_| s.radiance * d[2]);
                 hemisphere(1e-3, radiance).value
             })
             .sum::<f64>()
@@ -177,7 +189,8 @@ fn lights_are_chosen_by_power() {
     let total: f64 = power.iter().sum();
     for (i, (s, p)) in squares().iter().zip(power).enumerate() {
         // Density over area, from the density over directions under a cosine of 1 at 1 m.
-        let over_area = table.pdf_object(1 + i as u32, 1.0, 1.0) as f64;
+        let hit = EmitterHit { object: 1 + i as u32, triangle: 0, bary: (0.2, 0.2), p: P, n: N };
+        let over_area = table.pdf_object(&hit, &Receiver::all_round(N)) as f64;
         let expected = p / total / (4.0 * s.half * s.half);
         assert!((over_area / expected - 1.0).abs() < 1e-5, "light {i}: {over_area} {expected}");
     }
@@ -186,18 +199,17 @@ fn lights_are_chosen_by_power() {
 #[test]
 fn what_is_no_light_has_no_density_and_no_light() {
     let lambda = wavelengths();
-    for table in [table(false), LightTable::new(vec![], [None].into_iter(), (Vec3d::ZERO, 1.0))] {
+    let none = || LightTable::new(vec![], vec![], [None].into_iter(), (Vec3d::ZERO, 1.0));
+    let to = Receiver::facing(P, N);
+    for table in [table(false), none()] {
         assert!(!table.is_emitter(0) && !table.is_emitter(99));
-        assert!(table.emitted(0, &lambda).is_none());
-        assert_eq!(table.pdf_object(0, 1.0, 1.0), 0.0);
-        assert!(table.environment(&lambda).is_none());
-        assert_eq!(table.pdf_environment(N, N), 0.0);
+        let hit = EmitterHit { object: 0, triangle: 0, bary: (0.2, 0.2), p: N, n: -N };
+        assert!(table.emitted(&hit, -N, &lambda).is_none());
+        assert_eq!(table.pdf_object(&hit, &to), 0.0);
+        assert!(table.environment(N, &lambda).is_none());
+        assert_eq!(table.pdf_environment(&to, N), 0.0);
     }
-    assert!(
-        LightTable::new(vec![], [None].into_iter(), (Vec3d::ZERO, 1.0))
-            .sample(P, N, [0.5; 3], &lambda)
-            .is_none()
-    );
+    assert!(none().sample(&to, [0.5; 3], &lambda).is_none());
 }
 
 /// A table whose lights are all black chooses among them all the same, and never reports a number
@@ -207,7 +219,7 @@ fn degenerate_lights_give_numbers() {
     let black = Square::new([0.0, 0.0, 1.0], 1.0, 0.0);
     let touching = Square::new([0.0, 0.0, 1e-20], 1.0, 1.0);
     for square in [black, touching] {
-        let table = LightTable::new(vec![square.light()], [Some(0)].into_iter(), (Vec3d::ZERO, 0.0));
+        let table = LightTable::new(vec![square.light()], vec![], [Some(0)].into_iter(), (Vec3d::ZERO, 0.0));
         let mut rng = Rng::new(6);
         for _ in 0..1000 {
             if let Some(s) = draw(&table, &mut rng) {
@@ -223,4 +235,99 @@ fn the_density_is_one() {
     let (table, squares) = (table(true), squares());
     let integral = sphere(1e-4, |d| density(&table, &squares, d));
     assert!((integral.value - 1.0).abs() < 2e-3, "{integral:?}");
+}
+
+/// Receivers that the laws of distant lights are tried with: all round, level and upright.
+const NORMALS: [Vec3; 3] = [Vec3::ZERO, N, Vec3 { x: 0.6, y: -0.8, z: 0.0 }];
+
+/// A distant light draws directions with the density that it states, for all receivers.
+#[test]
+fn distant_lights_follow_their_densities() {
+    let examples = DistantLight::examples();
+    for (kind, light) in &examples {
+        for (i, n) in NORMALS.into_iter().enumerate() {
+            let test = Chi2 { samples: 50_000, seed: 7, ..Chi2::new(Domain::Sphere) }
+                .among(NORMALS.len() * examples.len());
+            let result = test.run(
+                |rng| {
+                    let u = [0; 2].map(|_| rng.uniform_f32() as Real);
+                    light.sample(n, u).map(|d| d.to_array().map(|x| x as f64))
+                },
+                |d| light.pdf(n, cast(d).cast()) as f64,
+            );
+            assert!(result.passed(), "{kind}, receiver {i}: {result}");
+        }
+    }
+}
+
+/// What shines can be drawn, by a receiver that looks at it.
+#[test]
+fn distant_light_is_drawn_from_wherever_it_shines() {
+    let mut rng = Rng::new(8);
+    for (kind, light) in DistantLight::examples() {
+        for _ in 0..20_000 {
+            let (z, turns) = (2.0 * rng.uniform() - 1.0, rng.uniform() * std::f64::consts::TAU);
+            let r = (1.0 - z * z).sqrt();
+            let d: Vec3 = Vec3d::new(r * turns.cos(), r * turns.sin(), z).cast();
+            let radiance = light.radiance(d, &SampledWavelengths::sample(rng.uniform_f32() as Real));
+            assert!(radiance.min_lane() >= 0.0 && radiance.is_finite(), "{kind}: {radiance:?}");
+            for n in NORMALS {
+                let counts = n == Vec3::ZERO || n.dot(d) > 1e-3;
+                assert!(radiance.is_black() || !counts || light.pdf(n, d) > 0.0, "{kind}: {d:?}");
+            }
+        }
+    }
+}
+
+/// The stated total is the luminance that drawn directions add up to: mean of luminance over density.
+#[test]
+fn distant_lights_state_their_total() {
+    let examples = DistantLight::examples();
+    for (kind, light) in &examples {
+        let mut rng = Rng::new(9);
+        let estimates = Moments::of((0..200_000).map(|_| {
+            let [u, v, w] = [0; 3].map(|_| rng.uniform_f32() as Real);
+            let lambda = SampledWavelengths::sample(w);
+            let Some(d) = light.sample(Vec3::ZERO, [u, v]) else { return 0.0 };
+            let y = indigo_spectrum::observer::xyz_weights(&lambda)[1];
+            let radiance = light.radiance(d, &lambda);
+            let luminance: f64 = radiance.0.iter().zip(y).map(|(l, y)| f64::from((l * y) as f32)).sum();
+            luminance / light.pdf(Vec3::ZERO, d) as f64
+        }));
+        let expected = light.total_luminance();
+        // The stated total serves to choose among lights; it need be no better than a table's cells.
+        let test: MeanTest =
+            welch(&estimates, &Moments::exact(expected), 2e-3 * expected).at(1e-4 / examples.len() as f64);
+        assert!(test.passed() && test.std_error < 5e-3 * expected, "{kind}: {test}");
+    }
+}
+
+/// Light sent out by lamps and environment, and light drawn from a point where it passes: the
+/// densities of the one are what the functions of the other say.
+#[test]
+fn emission_states_its_densities() {
+    let (table, shown) = (table(true), squares());
+    let mut rng = Rng::new(10);
+    let (mut lamps, mut skies) = (0, 0);
+    for _ in 0..5000 {
+        let u = [0; 3].map(|_| rng.uniform_f32() as Real);
+        let v = [0; 2].map(|_| rng.uniform_f32() as Real);
+        let Some(e) = table.sample_emission(u, v, &wavelengths()) else { continue };
+        assert!(e.throughput().is_finite() && e.throughput().min_lane() >= 0.0);
+        let pdf = if let Some(at) = e.point {
+            lamps += 1;
+            let object = shown.iter().position(|q| (q.axes[2].cast() - at.n).length() < 1e-5);
+            let object = 1 + object.expect("one of the squares") as u32;
+            let hit = EmitterHit { object, triangle: at.triangle, bary: at.bary, p: at.p, n: at.n };
+            assert_eq!(table.emitted(&hit, e.direction, &wavelengths()), Some(e.radiance));
+            table.pdf_emission_object(&hit, e.direction)
+        } else {
+            skies += 1;
+            assert_eq!(table.environment(-e.direction, &wavelengths()), Some(e.radiance));
+            table.pdf_emission_environment(-e.direction, e.origin + e.direction)
+        };
+        assert!((pdf.first - e.pdf.first).abs() <= 1e-5 * pdf.first, "{pdf:?} {:?}", e.pdf);
+        assert!((pdf.second - e.pdf.second).abs() <= 1e-4 * pdf.second, "{pdf:?} {:?}", e.pdf);
+    }
+    assert!(lamps > 100 && skies > 100);
 }

@@ -137,7 +137,7 @@ impl Scene {
         SceneStats {
             geometry: self.accel.stats(),
             objects: self.accel.objects().len(),
-            lights: self.lights.lights().len(),
+            lights: self.lights.len(),
             materials: self.materials.len(),
             textures: self.textures.len(),
         }

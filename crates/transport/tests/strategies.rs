@@ -14,6 +14,7 @@ use common::text::{background, flat_camera, grey, null, scene_file, settings, un
 use indigo_camera::CameraRay;
 use indigo_film::Sensor;
 use indigo_geom::{Ray, SurfacePoint, offset_origin};
+use indigo_light::{EmitterHit, Receiver};
 use indigo_math::{Real, Vec2, Vec3};
 use indigo_scatter::{Interface, Mode, ShadingPoint};
 use indigo_scene::Scene;
@@ -68,7 +69,8 @@ fn drawn(
     u: [Real; 4],
     lambda: &SampledWavelengths,
 ) -> SampledSpectrum {
-    let Some(light) = scene.lights.sample(at.p, shading.n_g(), [u[0], u[1], u[2]], lambda) else {
+    let Some(light) = scene.lights.sample(&Receiver::facing(at.p, shading.n_g()), [u[0], u[1], u[2]], lambda)
+    else {
         return SampledSpectrum::ZERO;
     };
     let origin = leave(scene, at, light.wi);
@@ -94,10 +96,17 @@ fn found(
     let Some(next) = shading.sample([u[0], u[1], u[2]], Mode::Radiance) else { return SampledSpectrum::ZERO };
     let ray = Ray::new(leave(scene, at, next.wi), next.wi);
     let light = match scene.accel.intersect(&ray) {
-        None => scene.lights.environment(lambda),
+        None => scene.lights.environment(next.wi, lambda),
         Some(hit) => {
             let there = scene.accel.surface(&ray, &hit);
-            scene.lights.emitted(there.object, lambda).filter(|_| there.n_g.dot(ray.d) < 0.0)
+            let hit = EmitterHit {
+                object: there.object,
+                triangle: there.primitive,
+                bary: there.bary,
+                p: there.p,
+                n: there.n_g,
+            };
+            scene.lights.emitted(&hit, -next.wi, lambda)
         }
     };
     next.weight * light.unwrap_or(SampledSpectrum::ZERO)

@@ -1,4 +1,7 @@
 //! The kinds of light, one file each.
+//!
+//! A kind that lies infinitely far away implements [`Distant`] and has a line in the registry below;
+//! the laws find it by that. Lamps are triangles, whatever their kind ([`AreaLight`](crate::AreaLight)).
 
 pub mod background;
 pub mod efficacy;
@@ -8,3 +11,83 @@ pub mod placement;
 pub mod portal;
 pub mod rectangle;
 pub mod skylight;
+
+use indigo_math::{Real, Vec3};
+use indigo_spectrum::{SampledSpectrum, SampledWavelengths};
+
+/// A light that is infinitely far away: radiance by direction, and a way of drawing directions.
+///
+/// All directions are unit vectors that lead towards the light.
+pub trait Distant {
+    /// Radiance, W m^-3 sr^-1, that comes from a direction.
+    fn radiance(&self, towards: Vec3, lambda: &SampledWavelengths) -> SampledSpectrum;
+
+    /// A direction with density [`pdf`](Self::pdf), for a receiver with unit normal `n`, or zero where
+    /// light counts from all sides.
+    fn sample(&self, n: Vec3, u: [Real; 2]) -> Option<Vec3>;
+
+    /// Density (1/sr) of [`sample`](Self::sample).
+    fn pdf(&self, n: Vec3, towards: Vec3) -> Real;
+
+    /// Luminance integrated over all directions, cd sr/m²: what a small ball's surface gets of it, times 4.
+    fn total_luminance(&self) -> f64;
+}
+
+/// Makes the enum of distant lights and everything that goes through all of them.
+macro_rules! distant_lights {
+    ($($file:ident => $light:ident,)*) => {
+        /// A light that is infinitely far away.
+        #[derive(Clone, Debug)]
+        pub enum DistantLight {
+            $(#[doc = concat!("See [`", stringify!($file), "`].")] $light($file::$light),)*
+        }
+
+        $(impl From<$file::$light> for DistantLight {
+            fn from(light: $file::$light) -> Self {
+                Self::$light(light)
+            }
+        })*
+
+        impl DistantLight {
+            /// Some of each kind, for the laws that all must keep.
+            pub fn examples() -> Vec<(&'static str, Self)> {
+                let mut all = vec![];
+                $(all.extend($file::$light::examples().into_iter().map(|l| (stringify!($light), l.into())));)*
+                all
+            }
+        }
+
+        impl Distant for DistantLight {
+            #[inline]
+            fn radiance(&self, towards: Vec3, lambda: &SampledWavelengths) -> SampledSpectrum {
+                match self {
+                    $(Self::$light(l) => l.radiance(towards, lambda),)*
+                }
+            }
+
+            #[inline]
+            fn sample(&self, n: Vec3, u: [Real; 2]) -> Option<Vec3> {
+                match self {
+                    $(Self::$light(l) => l.sample(n, u),)*
+                }
+            }
+
+            #[inline]
+            fn pdf(&self, n: Vec3, towards: Vec3) -> Real {
+                match self {
+                    $(Self::$light(l) => l.pdf(n, towards),)*
+                }
+            }
+
+            fn total_luminance(&self) -> f64 {
+                match self {
+                    $(Self::$light(l) => l.total_luminance(),)*
+                }
+            }
+        }
+    };
+}
+
+distant_lights! {
+    background => Background,
+}

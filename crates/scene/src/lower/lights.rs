@@ -8,20 +8,22 @@ use crate::codes;
 use indigo_decl::Node;
 use indigo_diag::{Diagnostic, Sink};
 use indigo_geom::{Accel, MeshBuffers, Object, TriangleMesh};
-use indigo_light::{AreaLight, Light, LightTable};
+use indigo_light::kinds::background::Background;
+use indigo_light::{AreaLight, DistantLight, LightTable};
 use indigo_math::{Transform, Vec3d};
 use indigo_spectrum::{Spectrum, photometry, read};
 
 /// Lights found so far.
 #[derive(Default)]
 pub(super) struct Lights {
-    lights: Vec<Light>,
+    lamps: Vec<AreaLight>,
+    distant: Vec<DistantLight>,
 }
 
 impl Lights {
     pub(super) fn add_background(&mut self, root: &Node, sink: &mut Sink) {
         let Some(spectrum) = root.node("background").and_then(|b| b.node("spectrum")) else { return };
-        self.lights.push(Light::Background(read::emission(spectrum, sink)));
+        self.distant.push(Background(read::emission(spectrum, sink)).into());
     }
 
     pub(super) fn add_mesh_lights(
@@ -33,7 +35,7 @@ impl Lights {
         context: &mut Context,
     ) {
         for node in root.nodes("meshlight") {
-            let light = self.lights.len() as u32;
+            let light = self.lamps.len() as u32;
             let placed = geometry.add_instance(node, Some(light), meshes, materials, context);
             let Some((object, mesh)) = placed else {
                 node.disregard();
@@ -53,7 +55,7 @@ impl Lights {
         sink: &mut Sink,
     ) {
         for node in root.nodes("rectanglelight") {
-            let light = self.lights.len() as u32;
+            let light = self.lamps.len() as u32;
             let Some(mesh) = rectangle(node, sink) else { continue };
             let mesh = meshes.add(mesh);
             let transform = Transform::translation(node.vec3("pos").into());
@@ -83,12 +85,12 @@ impl Lights {
                 ),
             }
         }
-        self.lights.push(Light::Area(light));
+        self.lamps.push(light);
     }
 
     /// Whether the scene has no light.
     pub(super) fn is_empty(&self) -> bool {
-        self.lights.is_empty()
+        self.lamps.is_empty() && self.distant.is_empty()
     }
 
     /// The table of all lights.
@@ -97,7 +99,7 @@ impl Lights {
         let (center, size) = (bounds.center().cast::<f64>(), bounds.size().cast::<f64>());
         // The sphere is a little larger than the box's, so that rounding keeps everything inside.
         let sphere = if size.is_finite() { (center, 0.5001 * size.length()) } else { (Vec3d::ZERO, 1.0) };
-        LightTable::new(self.lights, geometry.lights(), sphere)
+        LightTable::new(self.lamps, self.distant, geometry.lights(), sphere)
     }
 }
 

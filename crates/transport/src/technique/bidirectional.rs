@@ -12,13 +12,14 @@
 //! into the lens is left to (0, 2). Weights are those of [`mis`](super::mis).
 
 use super::mis::{Prefix, Step, Weight};
-use super::surface::shade;
+use super::surface::{emitter_hit, shade};
 use super::visibility::{Point, continue_beyond, is_lit, is_unblocked, spawn};
 use super::{Events, PathSample, Record, Splat};
 use crate::sampler::{Block, PrimarySample};
 use indigo_camera::CameraRay;
 use indigo_geom::{Ray, SurfacePoint};
-use indigo_math::{Real, Vec3};
+use indigo_light::Receiver;
+use indigo_math::Real;
 use indigo_scatter::{Mode, Scattered, ShadingPoint};
 use indigo_scene::Scene;
 use indigo_spectrum::{LanePdf, SampledSpectrum, SampledWavelengths};
@@ -135,7 +136,7 @@ impl Bidirectional {
                 step.arrive((at.p - from).length2(), cos)
             };
             if is_first {
-                let drawn = scene.lights.pdf_sample_of(&emission, at.p, shading.n_g());
+                let drawn = scene.lights.pdf_sample_of(&emission, &Receiver::facing(at.p, shading.n_g()));
                 prefix.before *= drawn / emission.pdf.first;
             }
             let light = LightVertex { at, shading, beta, prefix };
@@ -211,15 +212,15 @@ impl Bidirectional {
         let mut radiance = SampledSpectrum::ZERO;
         let mut beta = SampledSpectrum::splat(camera.importance);
         let mut step = Step::from_camera(scene.camera.pdf_direction(camera.direction) * self.film_density);
-        let (mut from, mut from_normal) = (camera.origin, Vec3::ZERO);
+        let mut from = Receiver::all_round(camera.origin);
         let mut ray = Ray::new(camera.origin, camera.direction);
         let (mut alpha, mut depth, mut vertex) = (0.0, 0, 0);
         loop {
             let Some(hit) = scene.accel.intersect(&ray) else {
-                if let Some(light) = scene.lights.environment(lambda).filter(|_| events.holds(depth)) {
+                if let Some(light) = scene.lights.environment(ray.d, lambda).filter(|_| events.holds(depth)) {
                     let prefix = step.arrive_at_environment();
-                    let drawn = scene.lights.pdf_environment(from_normal, ray.d);
-                    let pdf = scene.lights.pdf_emission_environment(ray.d);
+                    let drawn = scene.lights.pdf_environment(&from, ray.d);
+                    let pdf = scene.lights.pdf_emission_environment(ray.d, from.p);
                     radiance += found(&prefix, beta * light, depth, [drawn, pdf.first, pdf.second], record);
                 }
                 break;
@@ -230,14 +231,14 @@ impl Bidirectional {
             if cos == 0.0 {
                 break;
             }
-            let distance2 = (at.p - from).length2();
+            let distance2 = (at.p - from.p).length2();
             let prefix = step.arrive(distance2, cos.abs());
-            if cos > 0.0
-                && events.holds(depth)
-                && let Some(light) = scene.lights.emitted(at.object, lambda)
+            let emitter = emitter_hit(&at);
+            if events.holds(depth)
+                && let Some(light) = scene.lights.emitted(&emitter, wo, lambda)
             {
-                let drawn = scene.lights.pdf_object(at.object, distance2, cos) * cos / distance2;
-                let pdf = scene.lights.pdf_emission_object(at.object, cos);
+                let drawn = scene.lights.pdf_object(&emitter, &from) * cos / distance2;
+                let pdf = scene.lights.pdf_emission_object(&emitter, wo);
                 radiance += found(&prefix, beta * light, depth, [drawn, pdf.first, pdf.second], record);
             }
             let [u0, u1, u2, choice] = numbers.block(Block::scatter(vertex));
@@ -269,7 +270,7 @@ impl Bidirectional {
                 break;
             }
             step = go_on(&prefix, &next, &at);
-            (from, from_normal) = (at.p, shading.n_g());
+            from = Receiver::facing(at.p, shading.n_g());
             ray = spawn(scene, &at, next.wi);
             depth += 1;
             vertex += 1;
@@ -288,8 +289,8 @@ impl Bidirectional {
         if !events.holds(end.depth + 1) {
             return SampledSpectrum::ZERO;
         }
-        let n = end.shading.n_g();
-        let Some(light) = scene.lights.sample(end.at.p, n, [u[0], u[1], u[2]], lambda) else {
+        let to = Receiver::facing(end.at.p, end.shading.n_g());
+        let Some(light) = scene.lights.sample(&to, [u[0], u[1], u[2]], lambda) else {
             return SampledSpectrum::ZERO;
         };
         let response = end.shading.eval(light.wi, Mode::Radiance);

@@ -7,12 +7,13 @@
 //! hero's; a lane's estimate is `beta / mean(ratio)` (Wilkie et al. 2014, equation 12). Weights
 //! between strategies use densities averaged over the lanes.
 
-use super::surface::shade;
+use super::surface::{emitter_hit, shade};
 use super::visibility::{continue_beyond, is_lit, spawn};
 use super::{Events, PathSample};
 use crate::sampler::{Block, PrimarySample};
 use indigo_camera::CameraRay;
 use indigo_geom::{Ray, SurfacePoint};
+use indigo_light::Receiver;
 use indigo_math::{Real, Vec3};
 use indigo_scatter::{Mode, ShadingPoint};
 use indigo_scene::Scene;
@@ -33,8 +34,7 @@ struct Path {
 /// The last scattering event, as multiple importance sampling needs it.
 #[derive(Clone, Copy)]
 struct LastScatter {
-    p: Vec3,
-    n: Vec3,
+    at: Receiver,
     /// Densities of the direction over the *path's* hero density: `ratio` before times the lanes' pdf.
     pdf: LanePdf,
     /// The same for drawing light here: `mean(ratio)` before the direction was drawn, or 0.
@@ -113,8 +113,8 @@ pub fn trace(
     let mut vertex = 0;
     loop {
         let Some(hit) = scene.accel.intersect(&ray) else {
-            if let Some(light) = scene.lights.environment(lambda).filter(|_| events.holds(depth)) {
-                path.add_found(light, |last| scene.lights.pdf_environment(last.n, ray.d));
+            if let Some(light) = scene.lights.environment(ray.d, lambda).filter(|_| events.holds(depth)) {
+                path.add_found(light, |last| scene.lights.pdf_environment(&last.at, ray.d));
             }
             break;
         };
@@ -143,8 +143,7 @@ pub fn trace(
         }
         let Some(next) = shading.sample([u0, u1, u2], Mode::Radiance) else { break };
         path.last = Some(LastScatter {
-            p: at.p,
-            n: shading.n_g(),
+            at: Receiver::facing(at.p, shading.n_g()),
             pdf: path.ratio * next.pdf,
             // Light drawn at this vertex does not go the way of an event of delta kind.
             prefix: if next.is_delta { 0.0 } else { path.ratio.mean() },
@@ -163,12 +162,9 @@ pub fn trace(
 
 #[inline]
 fn add_emission(scene: &Scene, path: &mut Path, at: &SurfacePoint, wo: Vec3, lambda: &SampledWavelengths) {
-    let cos = wo.dot(at.n_g);
-    if cos <= 0.0 {
-        return;
-    }
-    if let Some(light) = scene.lights.emitted(at.object, lambda) {
-        path.add_found(light, |last| scene.lights.pdf_object(at.object, (at.p - last.p).length2(), cos));
+    let hit = emitter_hit(at);
+    if let Some(light) = scene.lights.emitted(&hit, wo, lambda) {
+        path.add_found(light, |last| scene.lights.pdf_object(&hit, &last.at));
     }
 }
 
@@ -181,7 +177,8 @@ fn add_direct_light(
     u: [Real; 4],
     lambda: &SampledWavelengths,
 ) {
-    let Some(light) = scene.lights.sample(at.p, shading.n_g(), [u[0], u[1], u[2]], lambda) else { return };
+    let to = Receiver::facing(at.p, shading.n_g());
+    let Some(light) = scene.lights.sample(&to, [u[0], u[1], u[2]], lambda) else { return };
     let response = shading.eval(light.wi, Mode::Radiance);
     if response.f_cos.is_black() || light.radiance.is_black() {
         return;

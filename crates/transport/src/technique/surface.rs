@@ -1,6 +1,7 @@
 //! From a point that a ray met to a scattering model that a path can use.
 
 use indigo_geom::SurfacePoint;
+use indigo_light::EmitterHit;
 use indigo_math::{Real, Vec3};
 use indigo_scatter::{Interface, ShadingPoint};
 use indigo_scene::Scene;
@@ -23,4 +24,10 @@ pub fn shade(
     let context = scene.material_context(lambda, Interface::NONE, choice);
     let leaf = scene.material_at(at).leaf(&context, |set| scene.accel.uv(at, set))?;
     Some(ShadingPoint::new(leaf, at.n_g, at.n_s, wo))
+}
+
+/// The point as the lights know it.
+#[inline]
+pub fn emitter_hit(at: &SurfacePoint) -> EmitterHit {
+    EmitterHit { object: at.object, triangle: at.primitive, bary: at.bary, p: at.p, n: at.n_g }
 }

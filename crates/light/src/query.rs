@@ -1,0 +1,119 @@
+//! What is asked of lights, and what they answer.
+
+use indigo_math::{Real, Vec3};
+use indigo_spectrum::SampledSpectrum;
+
+/// Where light is gathered.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Receiver {
+    /// Render-space position.
+    pub p: Vec3,
+    /// Unit normal on the side from which light counts; zero where it counts from all sides.
+    pub n: Vec3,
+}
+
+impl Receiver {
+    /// A surface that is lit from the side of its unit normal.
+    #[inline]
+    pub fn facing(p: Vec3, n: Vec3) -> Self {
+        Self { p, n }
+    }
+
+    /// A point that is lit from all sides: in a medium, or of a surface that lets light through.
+    #[inline]
+    pub fn all_round(p: Vec3) -> Self {
+        Self { p, n: Vec3::ZERO }
+    }
+}
+
+/// A point of an object that may be a lamp, as a ray met it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EmitterHit {
+    /// The object.
+    pub object: u32,
+    /// The triangle of its mesh.
+    pub triangle: u32,
+    /// Barycentric coordinates of vertices 1 and 2.
+    pub bary: (Real, Real),
+    /// Render-space position.
+    pub p: Vec3,
+    /// Unit normal of the front.
+    pub n: Vec3,
+}
+
+/// A point drawn on a lamp.
+#[derive(Clone, Copy, Debug)]
+pub struct EmitterPoint {
+    /// Render-space position.
+    pub p: Vec3,
+    /// Bound on the rounding error of `p`, for each axis.
+    pub p_error: Vec3,
+    /// Unit normal of the emitting side.
+    pub n: Vec3,
+    /// The triangle of the lamp's mesh.
+    pub triangle: u32,
+    /// Barycentric coordinates of vertices 1 and 2.
+    pub bary: (Real, Real),
+}
+
+/// Light that could arrive at a point, visibility not yet known.
+#[derive(Clone, Copy, Debug)]
+pub struct LightSample {
+    /// Unit direction towards the light.
+    pub wi: Vec3,
+    /// The point on a lamp and its surroundings; `None` for the environment.
+    pub point: Option<EmitterPoint>,
+    /// Radiance, W m^-3 sr^-1.
+    pub radiance: SampledSpectrum,
+    /// Density in solid angle (1/sr), the choice of the light included.
+    pub pdf: Real,
+    /// Densities with which [`LightTable::sample_emission`](crate::LightTable::sample_emission) would
+    /// send the same light here.
+    pub pdf_emission: EmissionPdf,
+}
+
+/// Light that leaves a lamp or enters the scene from its environment.
+///
+/// The two densities are of the first two vertices of a light path. Of a lamp they are those of the
+/// point, over area (1/m²), and of the direction (1/sr). The environment lies in directions: there the
+/// first density is that of the direction (1/sr), and the second that of where its light enters, over
+/// area across the direction (1/m²).
+#[derive(Clone, Copy, Debug)]
+pub struct Emission {
+    /// Where the light begins, render space; for the environment a point beyond the scene.
+    pub origin: Vec3,
+    /// The point on a lamp; `None` for the environment.
+    pub point: Option<EmitterPoint>,
+    /// Unit direction of the light's travel.
+    pub direction: Vec3,
+    /// Radiance, W m^-3 sr^-1.
+    pub radiance: SampledSpectrum,
+    /// Both densities.
+    pub pdf: EmissionPdf,
+    /// Number of the lamp; of no meaning for the environment.
+    pub(crate) lamp: u32,
+}
+
+/// Densities of [`Emission`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EmissionPdf {
+    /// Of the point of a lamp (1/m²), or of the direction towards the environment (1/sr); the choice
+    /// of the light included.
+    pub first: Real,
+    /// Of the direction from a lamp (1/sr), or of the place across it (1/m²).
+    pub second: Real,
+}
+
+impl EmissionPdf {
+    /// Of what is never drawn.
+    pub const NEVER: Self = Self { first: 0.0, second: 0.0 };
+}
+
+impl Emission {
+    /// What a light path carries at first: radiance times cosine over both densities.
+    #[inline]
+    pub fn throughput(&self) -> SampledSpectrum {
+        let cos = self.point.map_or(1.0, |p| self.direction.dot(p.n));
+        self.radiance * (cos / (self.pdf.first * self.pdf.second))
+    }
+}
