@@ -33,6 +33,15 @@ pub fn cosine_hemisphere_pdf(cos_theta: Real) -> Real {
     cos_theta.max(0.0) * INV_PI
 }
 
+/// A direction of the upper hemisphere with density 1 / 2π.
+#[inline]
+pub fn uniform_hemisphere(u: Vec2) -> Vec3 {
+    let z = 1.0 - u.x;
+    let r = (1.0 - z * z).max(0.0).sqrt();
+    let (s, c) = sin_cos_turns(u.y);
+    Vec3::new(r * c, r * s, z)
+}
+
 /// A direction of the whole sphere with density 1 / 4π.
 #[inline]
 pub fn uniform_sphere(u: Vec2) -> Vec3 {
@@ -97,6 +106,8 @@ mod tests {
 
     #[test]
     fn sphere_and_triangle_are_uniform() {
+        expect(|u| (uniform_hemisphere(u).x as f64).powi(2), 1.0 / 3.0);
+        expect(|u| uniform_hemisphere(u).z as f64, 0.5);
         expect(|u| (uniform_sphere(u).x as f64).powi(2), 1.0 / 3.0);
         expect(|u| (uniform_sphere(u).z as f64).powi(4), 0.2);
         expect(|u| uniform_triangle(u).0 as f64, 1.0 / 3.0);

@@ -5,6 +5,7 @@
 //! - [`Scatter`]: what the author of a model writes, in the local frame, without cosines;
 //! - [`ShadingPoint`]: the same at a point of a surface, with cosines and corrections for shading normals.
 
+mod directional_albedo;
 pub mod materials;
 pub mod media;
 pub mod phase;
@@ -14,5 +15,5 @@ mod shading;
 
 pub use materials::{Interface, Leaf, Material, MaterialContext, MaterialResources};
 pub use reflectance::Reflectance;
-pub use scatter::{Crossing, LocalSample, Scatter};
+pub use scatter::{Crossing, Delta, LocalSample, Scatter};
 pub use shading::{Evaluation, Mode, Scattered, ShadingPoint};

@@ -25,21 +25,23 @@ impl Reflectance {
     /// where there is none of them. What is overridden is marked as used.
     pub fn build(
         node: &Node,
-        [texture, spectrum, colour]: [&str; 3],
+        [texture, spectrum]: [&str; 2],
+        colour: Option<&str>,
         resources: &mut dyn MaterialResources,
     ) -> Self {
         let map = node.node(texture).map(|t| resources.texture(t));
         if let Some(id) = map {
-            node.disregard_field(spectrum);
-            node.disregard_field(colour);
+            std::iter::once(spectrum).chain(colour).for_each(|field| node.disregard_field(field));
             return Self::Texture(id, RgbTable::get());
         }
         if let Some(s) = node.node(spectrum) {
-            node.disregard_field(colour);
+            if let Some(field) = colour {
+                node.disregard_field(field);
+            }
             return Self::Spectrum(read::reflectance(s, resources.sink()));
         }
         // tidy: load-time mathematics
-        let rgb = node.opt_vec3(colour).map_or([0.0; 3], |v| v.value);
+        let rgb = colour.and_then(|field| node.opt_vec3(field)).map_or([0.0; 3], |v| v.value);
         let linear = rgb.map(|v| v.max(0.0).powf(COLOUR_GAMMA).clamp(0.0, COLOUR_LIMIT));
         Self::Spectrum(Spectrum::rgb_reflectance(linear))
     }

@@ -3,8 +3,7 @@
 use indigo_math::{Real, Vec3};
 use indigo_spectrum::{LanePdf, SampledSpectrum};
 
-/// How an event lies to the surface, by its geometric normal. The shading normal may say otherwise
-/// of either direction, so models must go by this and not by the signs of z.
+/// How an event lies to the surface. The z coordinates of both directions agree with it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Crossing {
     /// Both directions lie above: light is reflected.
@@ -31,8 +30,10 @@ impl Crossing {
 /// A scattering model with all its numbers baked for one point and one set of wavelengths.
 ///
 /// Both directions point away from the surface. The local z axis is the shading normal on the side
-/// from which the point was found, called *above*. No cosine, no correction for shading normals and
-/// no square of η belongs in here: [`ShadingPoint`](crate::ShadingPoint) adds them, once for all models.
+/// from which the point was found, called *above*. Directions lie on the sides that the crossing says,
+/// or in the surface: whatever geometry says otherwise,
+/// [`ShadingPoint`](crate::ShadingPoint) settles beforehand. No cosine, no correction for shading normals and
+/// no square of η belongs in here: it adds them, once for all models.
 ///
 /// Models are symmetric: f(a, b) = f(b, a) with the crossing reversed. For light that passes between
 /// indices η_a above and η_b below, that symmetric function is the usual BSDF for radiance that leaves
@@ -64,23 +65,34 @@ pub trait Scatter {
 pub struct LocalSample {
     /// The direction.
     pub wi: Vec3,
-    /// Whether it is meant to lie above ([`Crossing::Reflect`]) or below ([`Crossing::Down`]).
+    /// Whether it lies above ([`Crossing::Reflect`]) or below ([`Crossing::Down`]).
     pub crossing: Crossing,
-    /// The BSDF in 1/sr. For an event of delta kind its factor: the reflectance, or for light that
-    /// passes the transmittance times η_above / η_below (which makes it symmetric as `f` is: the
-    /// radiance of light from below then changes by (η_above / η_below)² in all).
-    pub f: SampledSpectrum,
-    /// Density in solid angle (1/sr) for each lane; for an event of delta kind its probability, which
-    /// is 0 in the lanes that would have gone another way.
-    pub pdf: LanePdf,
-    /// For an event of delta kind: the probability of the same event with its directions exchanged.
-    pub delta: Option<LanePdf>,
+    /// For an event of delta kind what [`Scatter::f`] and [`Scatter::pdf`] cannot tell.
+    pub delta: Option<Delta>,
+}
+
+/// An event of delta kind: of a direction that only drawing can find.
+#[derive(Clone, Copy, Debug)]
+pub struct Delta {
+    /// The reflectance, or for light that passes the transmittance times η_above / η_below (which makes
+    /// it symmetric as `f` is: the radiance of light from below then changes by (η_above / η_below)² in all).
+    pub factor: SampledSpectrum,
+    /// The event's probability, which is 0 in the lanes that would have gone another way.
+    pub probability: LanePdf,
+    /// The probability of the same event with its directions exchanged.
+    pub reverse: LanePdf,
 }
 
 impl LocalSample {
     /// A direction of a density.
     #[inline]
-    pub fn smooth(wi: Vec3, crossing: Crossing, f: SampledSpectrum, pdf: LanePdf) -> Self {
-        Self { wi, crossing, f, pdf, delta: None }
+    pub fn smooth(wi: Vec3, crossing: Crossing) -> Self {
+        Self { wi, crossing, delta: None }
+    }
+
+    /// The direction of an event of delta kind.
+    #[inline]
+    pub fn delta(wi: Vec3, crossing: Crossing, delta: Delta) -> Self {
+        Self { wi, crossing, delta: Some(delta) }
     }
 }

@@ -1,18 +1,28 @@
 //! Where a path meets a surface: the only place of cosines, of η² and of corrections for shading normals.
 //!
-//! The geometric normal decides on which side a direction lies, so that no light leaks through a
-//! surface however its shading normal leans; the shading normal gives the cosine. Light that
-//! travels from a lamp sees the same BSDF through the adjoint, whose factor is
-//! |ωo·ns| |ωi·ng| / (|ωo·ng| |ωi·ns|) (Veach 1997, section 5.3).
+//! **Shading normals.** The geometric normal decides on which side a direction lies, so that no light
+//! leaks through a surface; the shading normal gives the cosine. Three rules make of a model f that
+//! knows the shading normal alone a BSDF that loses no light however far that normal leans. Let c be the
+//! direction towards the camera, l that towards the light, and l* its mirror image at the surface:
 //!
-//! Radiance that passes from index η_i to η_o is multiplied by (η_o/η_i)². Models are symmetric,
-//! f_sym = f / (η_camera / η_light), where the ends are those of the path as a whole, so the one factor
-//! η_camera / η_light turns them into the BSDF of either mode. For events of delta kind the density in
-//! solid angle is not there to bring the rest: with T the transmittance and `f = T η_o/η_i` their weight
+//! 1. A camera below the shading normal's horizon, but before the surface, is taken to be as far above
+//!    that horizon: c becomes ĉ.
+//! 2. What f scatters to the wrong side of the surface is mirrored at it and leaves on the right side: the
+//!    light has met the flank of a neighbouring bump (as in Schüssler et al. 2017, "Microfacet-based Normal
+//!    Mapping for Robust Monte Carlo Path Tracing", whose tangential facet is a mirror, too). So light counts
+//!    from l and from l*: K(c, l) = f(ĉ, l) ⟨l·ns⟩ + f(ĉ, l*) ⟨l*·ns⟩, where ⟨⟩ is the cosine on the right side, else 0.
+//! 3. Light that travels from a lamp sees the same K through its adjoint, K |c·ng| / |l·ng| (Veach 1997, section 5.3).
+//!
+//! The integral of K over l is f's own albedo, whatever ns is: nothing darkens at edges, nothing is made.
+//!
+//! **Refraction.** Radiance that passes from index η_i to η_o is multiplied by (η_o/η_i)². Models are
+//! symmetric, f_sym = f / (η_camera / η_light), where the ends are those of the path as a whole, so the one
+//! factor η_camera / η_light turns them into the BSDF of either mode. For events of delta kind the density in
+//! solid angle is not there to bring the rest: with T the transmittance and `factor = T η_o/η_i` their weight
 //! is T (η_o/η_i)² for radiance and T η_o/η_i · η_i/η_o = T for importance (Veach 1997, section 5.2).
 
 use crate::materials::Leaf;
-use crate::scatter::{Crossing, Scatter};
+use crate::scatter::{Crossing, Delta, LocalSample, Scatter};
 use indigo_math::{Frame, Real, Vec3};
 use indigo_spectrum::{LanePdf, SampledSpectrum};
 
@@ -102,45 +112,92 @@ impl ShadingPoint {
         if side == 0.0 || side.is_nan() {
             return Evaluation::NOTHING;
         }
-        let crossing = if side > 0.0 { Crossing::Reflect } else { Crossing::Down };
+        let (crossing, sign) = if side > 0.0 { (Crossing::Reflect, 1.0) } else { (Crossing::Down, -1.0) };
         let (o, i) = (self.frame.to_local(self.wo), self.frame.to_local(wi));
-        let f = self.leaf.f(o, i, crossing);
-        if f.is_black() {
-            return Evaluation {
-                f_cos: f,
-                pdf: self.leaf.pdf(o, i, crossing),
-                pdf_rev: self.leaf.pdf(i, o, crossing.reversed()),
-            };
+        let (seen_o, seen_i) = (raised(o, 1.0), raised(i, sign));
+        let (mut k, mut pdf, mut pdf_rev) = (SampledSpectrum::ZERO, LanePdf::ZERO, LanePdf::ZERO);
+        for l in [Some(i), self.mirrored(wi, i)].into_iter().flatten().filter(|l| l.z * sign > 0.0) {
+            pdf += self.leaf.pdf(seen_o, l, crossing);
+            if mode == Mode::Radiance {
+                k += self.leaf.f(seen_o, l, crossing) * (l.z * sign);
+            }
         }
-        Evaluation {
-            f_cos: self.corrected(f, crossing, mode) * self.cosine(o, i, wi, crossing, mode),
-            pdf: self.leaf.pdf(o, i, crossing),
-            pdf_rev: self.leaf.pdf(i, o, crossing.reversed()),
+        // The same from the other end.
+        for l in [Some(o), self.mirrored(self.wo, o)].into_iter().flatten().filter(|l| l.z > 0.0) {
+            pdf_rev += self.leaf.pdf(seen_i, l, crossing.reversed());
+            if mode == Mode::Importance {
+                k += self.leaf.f(l, seen_i, crossing) * l.z;
+            }
         }
+        let f_cos = self.corrected(k, crossing, mode) * self.adjoint(wi, mode);
+        Evaluation { f_cos, pdf, pdf_rev }
     }
 
     /// Draws a direction; `None` where the light is absorbed.
     #[inline]
     pub fn sample(&self, u: [Real; 3], mode: Mode) -> Option<Scattered> {
         let o = self.frame.to_local(self.wo);
-        let s = self.leaf.sample(o, u)?;
-        let wi = self.frame.to_world(s.wi);
-        let is_transmitted = s.crossing != Crossing::Reflect;
+        let drawn = self.leaf.sample(raised(o, 1.0), u)?;
+        let is_transmitted = drawn.crossing != Crossing::Reflect;
+        let mut wi = self.frame.to_world(drawn.wi);
         let side = wi.dot(self.n_g);
-        // A direction that the shading normal allows but the geometry does not: absorbed.
-        let is_where_it_should = if is_transmitted { side < 0.0 } else { side > 0.0 };
-        if !is_where_it_should || s.pdf.hero() <= 0.0 {
+        let is_mirrored = if is_transmitted { side > 0.0 } else { side < 0.0 };
+        if is_mirrored {
+            wi -= self.n_g * (2.0 * side);
+        }
+        if let Some(delta) = drawn.delta {
+            return self.delta(&drawn, &delta, wi, mode, is_mirrored || o.z < 0.0);
+        }
+        let Evaluation { f_cos, pdf, pdf_rev } = self.eval(wi, mode);
+        (pdf.hero() > 0.0).then(|| Scattered {
+            wi,
+            weight: f_cos / pdf.hero(),
+            pdf,
+            pdf_rev,
+            is_delta: false,
+            is_transmitted,
+        })
+    }
+
+    /// An event of delta kind. Where one of its ends was moved, it does not lead back the same way: so it is
+    /// drawn from the camera's side alone, and its reverse cannot happen.
+    #[inline]
+    fn delta(
+        &self,
+        drawn: &LocalSample,
+        delta: &Delta,
+        wi: Vec3,
+        mode: Mode,
+        is_moved: bool,
+    ) -> Option<Scattered> {
+        if delta.probability.hero() <= 0.0
+            || wi.dot(self.n_g) == 0.0
+            || (is_moved && mode == Mode::Importance)
+        {
             return None;
         }
-        let (cosine, pdf_rev) = match s.delta {
-            None => {
-                let pdf_rev = self.leaf.pdf(s.wi, o, s.crossing.reversed());
-                (self.cosine(o, s.wi, wi, s.crossing, mode), pdf_rev)
-            }
-            Some(pdf_rev) => (self.delta_cosine(o, s.wi, wi, mode), pdf_rev),
+        // The cosine of the light cancels against the delta's own; in the adjoint, that of the camera.
+        let cosine = match mode {
+            Mode::Radiance => 1.0,
+            Mode::Importance => self.frame.to_local(self.wo).z * self.adjoint(wi, mode) / drawn.wi.z.abs(),
         };
-        let weight = self.corrected(s.f, s.crossing, mode) * (cosine / s.pdf.hero());
-        Some(Scattered { wi, weight, pdf: s.pdf, pdf_rev, is_delta: s.delta.is_some(), is_transmitted })
+        let factor = self.corrected(delta.factor, drawn.crossing, mode) * cosine;
+        Some(Scattered {
+            wi,
+            weight: factor / delta.probability.hero(),
+            pdf: delta.probability,
+            pdf_rev: if is_moved { LanePdf::ZERO } else { delta.reverse },
+            is_delta: true,
+            is_transmitted: drawn.crossing != Crossing::Reflect,
+        })
+    }
+
+    /// The mirror image at the surface of a direction, `local` in the frame, as rule 2 needs it; `None` where
+    /// both normals are one and it cannot be on the right side.
+    #[inline]
+    fn mirrored(&self, direction: Vec3, local: Vec3) -> Option<Vec3> {
+        (self.frame.n != self.n_g)
+            .then(|| local - self.frame.to_local(self.n_g) * (2.0 * direction.dot(self.n_g)))
     }
 
     /// The symmetric model's value as the BSDF of the path's own mode: times η_camera / η_light.
@@ -154,28 +211,21 @@ impl ShadingPoint {
         }
     }
 
-    /// The cosine that belongs to `f` in this mode, with the adjoint of the shading normal: 0 where the
-    /// light's direction, `wi` or `wo` by mode, lies on the wrong side of the shading normal.
+    /// Rule 3: what turns K into BSDF times cosine in a mode.
     #[inline]
-    fn cosine(&self, o: Vec3, i: Vec3, wi: Vec3, crossing: Crossing, mode: Mode) -> Real {
-        match mode {
-            Mode::Radiance => (if crossing == Crossing::Reflect { i.z } else { -i.z }).max(0.0),
-            Mode::Importance => {
-                let geometric = self.wo.dot(self.n_g).abs();
-                if geometric == 0.0 { 0.0 } else { o.z.max(0.0) * wi.dot(self.n_g).abs() / geometric }
-            }
-        }
-    }
-
-    /// The same over |cos| of the drawn direction, for events of delta kind.
-    #[inline]
-    fn delta_cosine(&self, o: Vec3, i: Vec3, wi: Vec3, mode: Mode) -> Real {
+    fn adjoint(&self, wi: Vec3, mode: Mode) -> Real {
         match mode {
             Mode::Radiance => 1.0,
             Mode::Importance => {
-                let ends = self.wo.dot(self.n_g).abs() * i.z.abs();
-                if ends == 0.0 { 0.0 } else { o.z.max(0.0) * wi.dot(self.n_g).abs() / ends }
+                let light = self.wo.dot(self.n_g).abs();
+                if light == 0.0 { 0.0 } else { wi.dot(self.n_g).abs() / light }
             }
         }
     }
+}
+
+/// Rule 1: a local direction on a side (1: above, -1: below), as far from the horizon as it was.
+#[inline]
+fn raised(d: Vec3, side: Real) -> Vec3 {
+    Vec3::new(d.x, d.y, d.z.abs() * side)
 }

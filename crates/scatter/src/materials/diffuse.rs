@@ -51,7 +51,14 @@ impl Diffuse {
 
     /// From its element. `bump_map` is left unread.
     pub fn build(node: &Node, resources: &mut dyn MaterialResources) -> Self {
-        Self { albedo: Reflectance::build(node, ["albedo_texture", "albedo_spectrum", "colour"], resources) }
+        Self {
+            albedo: Reflectance::build(
+                node,
+                ["albedo_texture", "albedo_spectrum"],
+                Some("colour"),
+                resources,
+            ),
+        }
     }
 
     /// The model at a point.
@@ -62,10 +69,6 @@ impl Diffuse {
 }
 
 /// Constant BSDF, for directions on one side of the surface.
-///
-/// A shading normal may lean so far that `wo` lies below its horizon though it is in front of the
-/// surface. The model does not look at the directions at all, so such places are not dark, and it
-/// stays symmetric: `ShadingPoint` keeps to one side of the surface, and its cosine ends the light.
 #[derive(Clone, Copy, Debug)]
 pub struct DiffuseLeaf {
     /// Albedo / π.
@@ -86,8 +89,6 @@ impl Scatter for DiffuseLeaf {
 
     #[inline]
     fn sample(&self, _wo: Vec3, u: [Real; 3]) -> Option<LocalSample> {
-        let wi = cosine_hemisphere(Vec2::new(u[0], u[1]));
-        let pdf = cosine_hemisphere_pdf(wi.z);
-        (pdf > 0.0).then(|| LocalSample::smooth(wi, Crossing::Reflect, self.f, LanePdf::splat(pdf)))
+        Some(LocalSample::smooth(cosine_hemisphere(Vec2::new(u[0], u[1])), Crossing::Reflect))
     }
 }

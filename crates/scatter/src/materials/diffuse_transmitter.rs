@@ -1,8 +1,14 @@
 //! `diffuse_transmitter`: a thin sheet that scatters all light to its other side.
 
 use super::fields::{ALBEDO_TEXTURE, COLOUR_DEPRECATED, LATER};
-use indigo_decl::{Block, Field, Group, Kind, Presence};
+use super::{MaterialContext, MaterialResources};
+use crate::reflectance::Reflectance;
+use crate::scatter::{Crossing, LocalSample, Scatter};
+use indigo_decl::{Block, Field, Group, Kind, Node, Presence};
+use indigo_math::warp::{INV_PI, cosine_hemisphere, cosine_hemisphere_pdf};
+use indigo_math::{Real, Vec2, Vec3};
 use indigo_spectrum::declare::SPECTRUM;
+use indigo_spectrum::{LanePdf, SampledSpectrum};
 
 /// The declaration of `diffuse_transmitter`.
 pub static BLOCK: Block = Block::new(
@@ -37,3 +43,55 @@ pub static BLOCK: Block = Block::new(
     </albedo_spectrum>
 </diffuse_transmitter>",
 );
+
+/// A sheet that scatters what it does not absorb to its other side.
+#[derive(Clone, Debug)]
+pub struct DiffuseTransmitter {
+    albedo: Reflectance,
+}
+
+impl DiffuseTransmitter {
+    /// From its element.
+    pub fn build(node: &Node, resources: &mut dyn MaterialResources) -> Self {
+        Self {
+            albedo: Reflectance::build(
+                node,
+                ["albedo_texture", "albedo_spectrum"],
+                Some("colour"),
+                resources,
+            ),
+        }
+    }
+
+    /// The model at a point.
+    #[inline]
+    pub fn leaf(&self, context: &MaterialContext, uv: impl Fn(u32) -> Vec2) -> DiffuseTransmitterLeaf {
+        DiffuseTransmitterLeaf { f: self.albedo.eval(context, uv) * INV_PI }
+    }
+}
+
+/// Constant BSDF, for directions on different sides of the surface.
+#[derive(Clone, Copy, Debug)]
+pub struct DiffuseTransmitterLeaf {
+    /// Albedo / π.
+    f: SampledSpectrum,
+}
+
+impl Scatter for DiffuseTransmitterLeaf {
+    #[inline]
+    fn f(&self, _wo: Vec3, _wi: Vec3, crossing: Crossing) -> SampledSpectrum {
+        if crossing == Crossing::Reflect { SampledSpectrum::ZERO } else { self.f }
+    }
+
+    #[inline]
+    fn pdf(&self, _wo: Vec3, wi: Vec3, crossing: Crossing) -> LanePdf {
+        let density = if crossing == Crossing::Reflect { 0.0 } else { cosine_hemisphere_pdf(wi.z.abs()) };
+        LanePdf::splat(density)
+    }
+
+    #[inline]
+    fn sample(&self, _wo: Vec3, u: [Real; 3]) -> Option<LocalSample> {
+        let d = cosine_hemisphere(Vec2::new(u[0], u[1]));
+        Some(LocalSample::smooth(Vec3::new(d.x, d.y, -d.z), Crossing::Down))
+    }
+}

@@ -143,9 +143,9 @@ macro_rules! registry {
 
 registry! {
     diffuse => Diffuse / DiffuseLeaf,
+    diffuse_transmitter => DiffuseTransmitter / DiffuseTransmitterLeaf,
+    oren_nayar => OrenNayar / OrenNayarLeaf,
     ; declared
-    oren_nayar,
-    diffuse_transmitter,
     specular,
     phong,
     glossy_transparent,

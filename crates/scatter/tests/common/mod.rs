@@ -16,6 +16,12 @@ const EXAMPLES: &[&str] = &[
     "<diffuse><albedo_spectrum><uniform><value>0.37</value></uniform></albedo_spectrum></diffuse>",
     "<diffuse><albedo_spectrum><uniform><value>1</value></uniform></albedo_spectrum></diffuse>",
     "<diffuse><albedo_spectrum><uniform><value>0</value></uniform></albedo_spectrum></diffuse>",
+    "<diffuse_transmitter><albedo_spectrum><rgb><rgb>0.9 0.5 0.1</rgb></rgb></albedo_spectrum></diffuse_transmitter>",
+    "<diffuse_transmitter><albedo_spectrum><uniform><value>1</value></uniform></albedo_spectrum></diffuse_transmitter>",
+    "<oren_nayar><sigma>0</sigma><albedo_spectrum><uniform><value>1</value></uniform></albedo_spectrum></oren_nayar>",
+    "<oren_nayar><sigma>0.12</sigma><albedo_spectrum><uniform><value>1</value></uniform></albedo_spectrum></oren_nayar>",
+    "<oren_nayar><sigma>1</sigma><albedo_spectrum><uniform><value>1</value></uniform></albedo_spectrum></oren_nayar>",
+    "<oren_nayar><sigma>0.6</sigma><albedo_spectrum><rgb><rgb>0.9 0.5 0.1</rgb></rgb></albedo_spectrum></oren_nayar>",
 ];
 
 /// Angles between the view and the geometric normal, in degrees.
@@ -71,7 +77,12 @@ pub struct Case {
 impl Case {
     /// The model set up at its place.
     pub fn point(&self) -> ShadingPoint {
-        ShadingPoint::new(self.leaf, self.n_g, self.n_s, self.wo)
+        self.from(self.wo)
+    }
+
+    /// The same seen from elsewhere.
+    pub fn from(&self, wo: Vec3) -> ShadingPoint {
+        ShadingPoint::new(self.leaf, self.n_g, self.n_s, wo)
     }
 }
 

@@ -1,0 +1,125 @@
+//! Directional albedos of rough surfaces, tabulated while a scene is loaded, and the light that was lost
+//! among facets, given back.
+
+use indigo_math::warp::INV_PI;
+use indigo_math::{Float, Real};
+
+/// Nodes of a row.
+const NODES: usize = 20;
+/// Nodes and weights of Gauss's rule of eight points on [-1, 1], the positive half.
+const GAUSS: [(f64, f64); 4] = [
+    (0.183_434_642_495_649_8, 0.362_683_783_378_362),
+    (0.525_532_409_916_329, 0.313_706_645_877_887_3),
+    (0.796_666_477_413_626_7, 0.222_381_034_453_374_47),
+    (0.960_289_856_497_536_2, 0.101_228_536_290_376_26),
+];
+
+/// The directional albedo E of a scattering function by the cosine μ of the view.
+///
+/// The nodes lie evenly in t = μ (1 + k) / (μ + k): dense at grazing angles, where a surface of roughness k
+/// changes within cosines of about k. Between nodes the row is cubic (Catmull & Rom 1974).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AlbedoRow {
+    albedo: [Real; NODES],
+    /// k.
+    scale: Real,
+    /// ∫ 2 μ E(μ) dμ: the share of even light from everywhere that is scattered.
+    average: Real,
+}
+
+impl AlbedoRow {
+    /// A row of a function of μ in [0, 1]; `scale` > 0 is the range of cosines in which it bends most.
+    pub fn new(scale: f64, albedo: impl Fn(f64) -> f64) -> Self {
+        let at = |i: usize| {
+            let t = i as f64 / (NODES - 1) as f64;
+            albedo(t * scale / (1.0 + scale - t)).clamp(0.0, 1.0)
+        };
+        let mut row = Self {
+            albedo: std::array::from_fn(|i| Real::from_f64(at(i))),
+            scale: Real::from_f64(scale),
+            average: 0.0,
+        };
+        // The interpolant's own mean, so that what `lost` gives back sums up exactly. μ = s² spreads the nodes.
+        let mean = integral([0.0, 1.0], 32, |s| 4.0 * s * s * s * row.at(Real::from_f64(s * s)).to_f64());
+        row.average = Real::from_f64(mean);
+        row
+    }
+
+    /// E(μ).
+    #[inline]
+    pub fn at(&self, cos: Real) -> Real {
+        let t = cos * (1.0 + self.scale) / (cos + self.scale) * (NODES - 1) as Real;
+        let cell = (t as usize).min(NODES - 2);
+        let x = t - cell as Real;
+        let v = |i: usize| self.albedo[i];
+        let (a, b) = (v(cell), v(cell + 1));
+        // At the ends the slope is that of the parabola through the last three nodes.
+        let slope_a = if cell == 0 { 2.0 * b - 1.5 * a - 0.5 * v(2) } else { 0.5 * (b - v(cell - 1)) };
+        let slope_b =
+            if cell + 2 == NODES { 1.5 * b - 2.0 * a + 0.5 * v(cell - 1) } else { 0.5 * (v(cell + 2) - a) };
+        let rise = b - a;
+        let value = a + x
+            * (slope_a + x * (3.0 * rise - 2.0 * slope_a - slope_b + x * (slope_a + slope_b - 2.0 * rise)));
+        value.clamp(0.0, 1.0)
+    }
+
+    /// ∫ 2 μ E(μ) dμ.
+    #[inline]
+    pub fn average(&self) -> Real {
+        self.average
+    }
+
+    /// What is not scattered from two directions together, as a function that is symmetric and whose albedo
+    /// is 1 − E: (1 − E(μo)) (1 − E(μi)) / (π (1 − Ē)) (Kelemen & Szirmay-Kalos 2001; Kulla & Conty 2017).
+    #[inline]
+    pub fn complement(&self, cos_o: Real, cos_i: Real) -> Real {
+        let lost = 1.0 - self.average;
+        if lost <= 0.0 { 0.0 } else { (1.0 - self.at(cos_o)) * (1.0 - self.at(cos_i)) * (INV_PI / lost) }
+    }
+}
+
+/// ∫ f over `[lo, hi]` in so many pieces, by Gauss's rule of eight points.
+pub fn integral([lo, hi]: [f64; 2], pieces: usize, f: impl Fn(f64) -> f64) -> f64 {
+    let half = 0.5 * (hi - lo) / pieces as f64;
+    let middle = |piece: usize| lo + half * (2 * piece + 1) as f64;
+    let piece = |m: f64| GAUSS.iter().map(|&(x, w)| w * (f(m - half * x) + f(m + half * x))).sum::<f64>();
+    (0..pieces).map(|i| piece(middle(i)) * half).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_follow_smooth_functions() {
+        for scale in [1.0, 0.1, 0.01] {
+            let f = |mu: f64| 1.0 - 0.5 * (scale / (mu + scale)).powi(2);
+            let row = AlbedoRow::new(scale, f);
+            for i in 0..=1000 {
+                let mu = f64::from(i) / 1000.0;
+                assert!(
+                    (row.at(mu as Real) as f64 - f(mu)).abs() < 2e-4,
+                    "{scale} {mu}: {}",
+                    row.at(mu as Real)
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn the_complement_has_the_albedo_that_is_missing() {
+        let row = AlbedoRow::new(0.3, |mu| 0.4 + 0.5 * mu);
+        for mu_o in [0.0, 0.3, 1.0] {
+            let albedo = integral([0.0, 1.0], 64, |mu| {
+                2.0 * std::f64::consts::PI * mu * row.complement(mu_o, mu as Real) as f64
+            });
+            assert!((albedo - (1.0 - row.at(mu_o)) as f64).abs() < 1e-5, "{mu_o}: {albedo}");
+        }
+        assert_eq!(AlbedoRow::new(1.0, |_| 1.0).complement(0.5, 0.5), 0.0);
+    }
+
+    #[test]
+    fn quadrature_is_exact_for_polynomials() {
+        assert!((integral([0.0, 2.0], 1, |x| x.powi(15)) - 4096.0).abs() < 1e-8);
+    }
+}
