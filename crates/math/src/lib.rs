@@ -4,10 +4,12 @@
 //! Nothing here allocates on evaluation, locks, reads a clock or depends on another crate.
 //! [`Real`] is the scalar of the rendering kernel; sums, tables and transforms at load are `f64`.
 
+pub mod angle;
 pub mod bounds;
 pub mod distribution;
 pub mod elementary;
 pub mod frame;
+pub mod grid_distribution;
 pub mod rng;
 pub mod scalar;
 pub mod sobol;

@@ -15,6 +15,8 @@ indigo_decl::codes! {
     NO_LIGHT = "W0306";
     /// The normal of a plane is not of length 1.
     NOT_UNIT = "W0307";
+    /// Texels of an environment map that cannot be light.
+    BAD_TEXELS = "W0308";
     /// A name that nothing defines.
     UNKNOWN_NAME = "E0301";
     /// A file that cannot be had.

@@ -90,4 +90,5 @@ macro_rules! distant_lights {
 
 distant_lights! {
     background => Background,
+    env_map => EnvMap,
 }

@@ -1,14 +1,13 @@
 //! Lights.
 
-use super::Context;
 use super::geometry::Geometry;
 use super::materials::MaterialTable;
 use super::meshes::MeshTable;
+use super::{Context, environment};
 use crate::codes;
 use indigo_decl::Node;
 use indigo_diag::{Diagnostic, Sink};
 use indigo_geom::{Accel, MeshBuffers, Object, TriangleMesh};
-use indigo_light::kinds::background::Background;
 use indigo_light::{AreaLight, DistantLight, LightTable};
 use indigo_math::{Transform, Vec3d};
 use indigo_spectrum::{Spectrum, photometry, read};
@@ -21,9 +20,8 @@ pub(super) struct Lights {
 }
 
 impl Lights {
-    pub(super) fn add_background(&mut self, root: &Node, sink: &mut Sink) {
-        let Some(spectrum) = root.node("background").and_then(|b| b.node("spectrum")) else { return };
-        self.distant.push(Background(read::emission(spectrum, sink)).into());
+    pub(super) fn add_environment(&mut self, root: &Node, context: &mut Context) {
+        self.distant = environment::distant_lights(root, context);
     }
 
     pub(super) fn add_mesh_lights(

@@ -4,6 +4,7 @@
 //! no effect.
 
 mod camera;
+mod environment;
 mod geometry;
 mod lights;
 mod materials;
@@ -86,7 +87,7 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
     let mut geometry = Geometry::new(origin);
     geometry.add_objects(root, settings, &mut meshes, &mut materials, context);
     let mut lights = lights::Lights::default();
-    lights.add_background(root, context.sink);
+    lights.add_environment(root, context);
     lights.add_mesh_lights(root, &mut geometry, &mut meshes, &mut materials, context);
     lights.add_rectangles(root, &mut geometry, &mut meshes, &mut materials, context.sink);
     meshes.disregard_unused();

@@ -1,0 +1,85 @@
+//! Lights that are infinitely far away.
+
+use super::Context;
+use crate::codes;
+use indigo_decl::Node;
+use indigo_diag::Diagnostic;
+use indigo_formats::image::{self, Image, Pixels};
+use indigo_formats::{FormatError, float_map};
+use indigo_light::DistantLight;
+use indigo_light::kinds::background::Background;
+use indigo_light::kinds::env_map::{EnvMap, Layout};
+use indigo_spectrum::read;
+
+/// All distant lights of a scene; their radiances add.
+pub(super) fn distant_lights(root: &Node, context: &mut Context) -> Vec<DistantLight> {
+    let mut lights = vec![];
+    if let Some(spectrum) = root.node("background").and_then(|b| b.node("spectrum")) {
+        lights.push(Background(read::emission(spectrum, context.sink)).into());
+    }
+    if let Some(map) = root.node("env_map").and_then(Node::alternative) {
+        lights.extend(env_map(map, context).map(DistantLight::from));
+    }
+    lights
+}
+
+fn env_map(node: &Node, context: &mut Context) -> Option<EnvMap> {
+    let path = node.text("path");
+    let gain = node.real("gain");
+    let width = (node.block.name == "spherical").then(|| node.int("width"));
+    let file = context.read(&path.value, path.span)?;
+    let (layout, image) = match width {
+        Some(width) => {
+            (Layout::Angular, float_map::decode(&file.bytes, u32::try_from(width).unwrap_or(u32::MAX)))
+        }
+        None => (Layout::LatLong, image::decode(&file.path, &file.bytes)),
+    };
+    let texels = image.and_then(|image| Ok((image.width, image.height, linear_texels(image)?)));
+    let (width, height, mut texels) = match texels {
+        Ok(found) => found,
+        Err(error) => {
+            context.sink.push(
+                Diagnostic::error(codes::BAD_FILE, path.span, format!("{}: bad environment map", file.path))
+                    .expected(format!("expected {}, found {}", error.expected, error.found)),
+            );
+            return None;
+        }
+    };
+    let bad = scale(&mut texels, gain);
+    if bad > 0 {
+        let what = if bad == 1 { "1 texel is".to_owned() } else { format!("{bad} texels are") };
+        context.sink.push(Diagnostic::warning(
+            codes::BAD_TEXELS,
+            path.span,
+            format!("{}: {what} negative, infinite or no number, and black instead", file.path),
+        ));
+    }
+    Some(EnvMap::new(layout, width as usize, height as usize, texels))
+}
+
+/// The texels of a picture in linear light: integers are not, and have not the range.
+fn linear_texels(image: Image) -> Result<Vec<[f32; 3]>, FormatError> {
+    let Pixels::F32(values) = image.pixels else {
+        return Err(FormatError::new(
+            indigo_formats::Position::Byte(0),
+            "a picture of high dynamic range (EXR or HDR)",
+            "a picture of 8 or 16 bits",
+        ));
+    };
+    if image.channels == 1 {
+        return Ok(values.into_iter().map(|v| [v; 3]).collect());
+    }
+    Ok(values.as_chunks::<3>().0.to_vec())
+}
+
+/// Multiplies all texels; those that cannot be light become black, and are counted.
+fn scale(texels: &mut [[f32; 3]], gain: f64) -> usize {
+    let mut bad = 0;
+    for texel in texels {
+        let scaled = texel.map(|v| (f64::from(v) * gain) as f32);
+        let is_light = scaled.iter().all(|v| v.is_finite() && *v >= 0.0);
+        bad += usize::from(!is_light);
+        *texel = if is_light { scaled } else { [0.0; 3] };
+    }
+    bad
+}

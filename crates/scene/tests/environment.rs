@@ -1,0 +1,142 @@
+//! Distant lights as a scene gives them: what comes from which direction, and what is wrong with files.
+
+use indigo_decl::{ResolveError, Resolved, Resolver};
+use indigo_diag::Severity;
+use indigo_geom::NoStore;
+use indigo_igs::Limits;
+use indigo_math::{Real, Vec3};
+use indigo_scene::{LoadOptions, Loaded, load};
+use indigo_spectrum::SampledWavelengths;
+use std::fmt::Write;
+
+/// A scene and the pictures beside it.
+struct Memory(String);
+
+/// 8 by 2 texels of a Radiance file, not compressed: each red, green and blue with one exponent (128: halves).
+fn hdr() -> Vec<u8> {
+    let mut bytes = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 8\n".to_vec();
+    for i in 0..16u8 {
+        // The left half is dark; the upper right is 1, 1/2, 1/4, and the lower right half of it.
+        let brightness = if i % 8 < 4 { 0 } else { 129 - i / 8 };
+        bytes.extend([128, 64, 32, brightness]);
+    }
+    bytes
+}
+
+/// 4 by 4 texels: the upper half is 3, and one of the lower ones negative, one no number.
+fn float() -> Vec<u8> {
+    let value = |i: usize| match i {
+        0..8 => 3.0,
+        10 => -1.0,
+        13 => f32::NAN,
+        _ => 0.25,
+    };
+    (0..16).flat_map(|i| [value(i); 3]).flat_map(f32::to_le_bytes).collect()
+}
+
+impl Resolver for Memory {
+    fn read(&self, path: &str, _from: &str) -> Result<Resolved, ResolveError> {
+        let bytes = match path {
+            "scene.igs" => self.0.clone().into_bytes(),
+            "map.hdr" => hdr(),
+            "probe.float" => float(),
+            // A PNG's first bytes do: it is refused whatever follows.
+            "map.bmp" => b"BM".to_vec(),
+            _ => return Err(ResolveError::NotFound { looked: vec![path.to_owned()] }),
+        };
+        Ok(Resolved { path: path.to_owned(), bytes: bytes.into() })
+    }
+}
+
+const HEAD: &str = "<scene><renderer_settings><aperture_diffraction>false</aperture_diffraction><bidirectional>false</bidirectional><metropolis>false</metropolis></renderer_settings>
+<tonemapping><linear><scale>1</scale></linear></tonemapping>
+<camera><pos>0 -2 1</pos><up>0 0 1</up><forwards>0 1 0</forwards><aperture_radius>0.001</aperture_radius><focus_distance>3</focus_distance><aspect_ratio>1.3333</aspect_ratio><sensor_width>0.036</sensor_width><lens_sensor_dist>0.02</lens_sensor_dist></camera>
+";
+
+fn loaded(light: &str) -> Loaded {
+    let resolver = Memory(format!("{HEAD}{light}</scene>"));
+    let options = LoadOptions {
+        resolver: &resolver,
+        trees: &NoStore,
+        inifile: None,
+        overrides: &[],
+        limits: Limits::default(),
+        check_only: false,
+    };
+    load("scene.igs", &options)
+}
+
+/// Codes of everything found.
+fn codes(l: &Loaded) -> Vec<&'static str> {
+    l.sink.diagnostics().iter().map(|d| d.code).collect()
+}
+
+/// Mean radiance of the wavelengths of many paths from a direction.
+#[track_caller]
+fn radiance(l: &Loaded, towards: [f64; 3]) -> f64 {
+    let mut found = String::new();
+    l.sink.diagnostics().iter().for_each(|d| {
+        let _ = write!(found, "{} {}; ", d.code, d.message);
+    });
+    let scene = l.scene.as_ref().unwrap_or_else(|| panic!("a scene: {found}"));
+    let d: Vec3 = indigo_math::Vec3d::from(towards).normalized().cast();
+    let n = 512;
+    let at = |i| SampledWavelengths::sample((f64::from(i) / f64::from(n)) as Real);
+    let mean = |i| scene.lights.environment(d, &at(i)).map_or(0.0, |r| r.mean() as f64);
+    (0..n).map(mean).sum::<f64>() / f64::from(n)
+}
+
+fn lat_long(gain: f64) -> String {
+    format!("<env_map><latlong><path>map.hdr</path><gain>{gain}</gain></latlong></env_map>")
+}
+
+#[test]
+fn a_map_by_latitude_and_longitude_lies_as_documented() {
+    let map = loaded(&lat_long(1.0));
+    assert_eq!(codes(&map), [""; 0]);
+    // Right of +y is +x, and above is brighter than below by two.
+    let (right, left) = ([1.0, 0.0, 2.0], [-1.0, 0.0, 2.0]);
+    let bright = radiance(&map, right);
+    assert!(bright > 0.1);
+    assert_eq!(radiance(&map, left), 0.0);
+    let below = radiance(&map, [1.0, 0.0, -2.0]);
+    assert!((below / bright - 0.5).abs() < 1e-3, "{below} {bright}");
+    let gained = radiance(&loaded(&lat_long(8.0)), right);
+    assert!((gained / bright - 8.0).abs() < 1e-4);
+}
+
+#[test]
+fn an_angular_map_lies_as_documented() {
+    let text =
+        "<env_map><spherical><path>probe.float</path><width>4</width><gain>2</gain></spherical></env_map>";
+    let map = loaded(text);
+    assert_eq!(codes(&map), ["W0308"]);
+    let message = &map.sink.diagnostics()[0].message;
+    assert!(message.contains("2 texels are"), "{message}");
+    // The middles of the third texels of the first and of the last row.
+    let (x, y, z) = (0.193370935, -0.791250159, 0.580112806);
+    let (above, below) = (radiance(&map, [x, y, z]), radiance(&map, [x, y, -z]));
+    assert!((below / above - 0.25 / 3.0).abs() < 1e-4, "{above} {below}");
+    assert_eq!(codes(&loaded(&text.replace(">4<", ">5<"))), ["E0303"]);
+}
+
+#[test]
+fn maps_that_cannot_be_light_are_refused() {
+    let map = |path: &str| lat_long(1.0).replace("map.hdr", path);
+    assert_eq!(codes(&loaded(&map("nothing.exr"))), ["E0302"]);
+    assert_eq!(codes(&loaded(&map("map.bmp"))), ["E0303"]);
+    assert_eq!(codes(&loaded(&map("probe.float"))), ["E0303"]);
+}
+
+/// Several distant lights add.
+#[test]
+fn a_map_and_a_background_add() {
+    let background = "<background><spectrum><uniform><value>5</value></uniform></spectrum></background>";
+    let both = loaded(&format!("{background}{}", lat_long(1.0)));
+    assert!(both.sink.diagnostics().iter().all(|d| d.severity != Severity::Error));
+    let map = loaded(&lat_long(1.0));
+    for d in [[1.0, 0.0, 2.0], [-1.0, 0.0, 2.0]] {
+        assert!((radiance(&both, d) - radiance(&map, d) - 5.0).abs() < 1e-5);
+    }
+    assert_eq!(both.scene.unwrap().lights.len(), 2);
+}
