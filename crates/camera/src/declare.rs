@@ -173,8 +173,8 @@ pub static IMAGE: Block = Block::new(
         "path",
         Kind::Path,
         Presence::Required,
-        "A square greyscale PNG file, relative to the scene file; its side is a power of two of at least 512 \
-         pixels.",
+        "A square greyscale PNG file, relative to the scene file; its side is a power of two from 512 to 4096 \
+         pixels. Grey lets a part of the light through, in proportion to the stored value.",
     )],
 )
 .with_example("<image><path>aperture.png</path></image>");
@@ -182,9 +182,13 @@ pub static IMAGE: Block = Block::new(
 /// The declaration of `generated`.
 pub static GENERATED: Block = Block::new(
     "generated",
-    "A diaphragm of curved blades.",
+    "A diaphragm of curved blades. Each blade's edge is part of a circle of radius `blade_curvature_radius` \
+     whose nearest point lies at `blade_offset` from the centre, in the direction of the blade: blade i of n \
+     lies at `start_angle` + 2π·i/n, counter-clockwise from the right as the camera looks. A point is open \
+     if it lies inside all circles, and inside the square of the shape. A large radius makes straight edges; \
+     one that equals the offset makes a circle.",
     &[
-        Field::new("num_blades", Kind::Int, Presence::Required, "Number of blades.")
+        Field::new("num_blades", Kind::Int, Presence::Required, "Number of blades, at most 10000.")
             .range(Range::AtLeast(3.0)),
         Field::new("start_angle", Kind::Real, Presence::Required, "Angle of the first blade.").unit("rad"),
         Field::new(
@@ -199,7 +203,8 @@ pub static GENERATED: Block = Block::new(
             "blade_curvature_radius",
             Kind::Real,
             Presence::Required,
-            "Distance from the edge of a blade to the centre of its curvature.",
+            "Distance from the edge of a blade to the centre of its curvature; more than half the offset, or the \
+             blades close.",
         )
         .unit("widths of the shape")
         .range(Range::Above(0.0)),

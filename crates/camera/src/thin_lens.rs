@@ -5,7 +5,6 @@
 //! through the lens meets that image point. The horizontal angle of view is
 //! 2 atan(sensor_width / (2 lens_sensor_dist)), whatever the focus.
 
-use indigo_math::warp::concentric_disk;
 use indigo_math::{Real, Vec2, Vec3, Vec3d};
 
 /// What a thin lens is made from; lengths in metres.
@@ -43,12 +42,15 @@ pub struct ThinLens {
     inverse_focus: Real,
     /// Sensor size over lens-sensor distance.
     tangents: Vec2,
+    /// Distance from the sensor to the lens over the diameter of the aperture.
+    f_number: Real,
+    sensor_size: Vec2,
     vignetting: bool,
 }
 
-/// A ray that leaves the camera.
+/// A ray from the lens into the scene, without diffraction.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CameraRay {
+pub struct LensRay {
     /// Point on the lens.
     pub origin: Vec3,
     /// Unit direction.
@@ -62,7 +64,7 @@ pub struct CameraRay {
 pub struct FilmPosition {
     /// From (0, 0), top left, to (1, 1) on the film.
     pub position: Vec2,
-    /// What its radiance counts there, as in [`CameraRay`].
+    /// What its radiance counts there, as in [`LensRay`].
     pub importance: Real,
 }
 
@@ -88,24 +90,27 @@ impl ThinLens {
                 (p.sensor_width / p.lens_sensor_dist) as Real,
                 (p.sensor_height / p.lens_sensor_dist) as Real,
             ),
+            f_number: (0.5 * p.lens_sensor_dist / p.aperture_radius) as Real,
+            sensor_size: Vec2::new(p.sensor_width as Real, p.sensor_height as Real),
             vignetting: p.vignetting,
         })
     }
 
-    /// The ray of a film position and a point of the unit square on the lens.
+    /// The ray of a film position through a point of the lens, in radii of the aperture to the right
+    /// and up as the camera looks.
     ///
-    /// The film runs from (0, 0), top left, to (1, 1); positions a little outside are fine, as wide
-    /// reconstruction filters ask for them.
+    /// The film runs from (0, 0), top left, to (1, 1); positions outside are fine, as wide
+    /// reconstruction filters and diffraction ask for them.
     #[inline]
-    pub fn ray(&self, film: Vec2, lens: Vec2) -> CameraRay {
+    pub fn ray(&self, film: Vec2, lens: Vec2) -> LensRay {
         let x = (film.x - 0.5) * self.tangents.x;
         let y = (0.5 - film.y) * self.tangents.y;
         let chief = self.forwards + self.right * x + self.up * y;
-        let on_disk = concentric_disk(lens) * self.aperture_radius;
-        let offset = self.right * on_disk.x + self.up * on_disk.y;
+        let on_lens = lens * self.aperture_radius;
+        let offset = self.right * on_lens.x + self.up * on_lens.y;
         // Towards the image point `chief · focus`, from the lens point, both divided by focus.
         let direction = (chief - offset * self.inverse_focus).normalized();
-        CameraRay { origin: self.position + offset, direction, importance: self.importance(x, y) }
+        LensRay { origin: self.position + offset, direction, importance: self.importance(x, y) }
     }
 
     /// The film position that sees along a direction from a point of the lens: the inverse of
@@ -144,6 +149,13 @@ impl ThinLens {
         cos2 * cos2
     }
 
+    /// How far apart on the film two fringes lie whose light comes from the two sides of the aperture's
+    /// square, in widths and heights of the film per nm of wavelength: λ s / 2a.
+    pub fn cycle_per_nm(&self) -> Vec2 {
+        let cycle_m = 1e-9 * self.f_number;
+        Vec2::new(cycle_m / self.sensor_size.x, cycle_m / self.sensor_size.y)
+    }
+
     /// The viewing direction.
     pub fn forwards(&self) -> Vec3 {
         self.forwards
@@ -175,8 +187,8 @@ mod tests {
     #[test]
     fn looking_along_y_with_z_up_the_picture_has_x_to_the_right() {
         let lens = ThinLens::new(&parameters()).unwrap();
-        let centre = Vec2::new(0.5, 0.5);
-        assert!(close(lens.ray(centre, centre).direction, Vec3::new(0.0, 1.0, 0.0)));
+        let (middle, centre) = (Vec2::new(0.5, 0.5), Vec2::new(0.0, 0.0));
+        assert!(close(lens.ray(middle, centre).direction, Vec3::new(0.0, 1.0, 0.0)));
         let right_edge = lens.ray(Vec2::new(1.0, 0.5), centre).direction;
         assert!(close(right_edge, Vec3::new(0.9, 1.0, 0.0).normalized()));
         let top = lens.ray(Vec2::new(0.5, 0.0), centre).direction;
@@ -189,8 +201,9 @@ mod tests {
         let film = Vec2::new(0.8, 0.3);
         let image = Vec3::new(1.0, 2.0, 3.0) + Vec3::new(0.3 * 1.8, 1.0, 0.2 * 1.2) * 4.0;
         for i in 0..50 {
-            let r = lens.ray(film, Vec2::new((i % 7) as Real / 7.0, (i / 7) as Real / 8.0));
-            assert!((r.origin - Vec3::new(1.0, 2.0, 3.0)).length() <= 0.01001);
+            let r = lens.ray(film, Vec2::new((i % 7) as Real / 7.0 - 0.5, (i / 7) as Real / 8.0));
+            let (right, up) = ((i % 7) as Real / 7.0 - 0.5, (i / 7) as Real / 8.0);
+            assert!(close(r.origin, Vec3::new(1.0 + 0.01 * right, 2.0, 3.0 + 0.01 * up)));
             let t = (image.y - r.origin.y) / r.direction.y;
             assert!(close(r.origin + r.direction * t, image));
         }
@@ -200,18 +213,18 @@ mod tests {
     fn a_focus_at_infinity_makes_parallel_rays() {
         let p = ThinLensParameters { focus_distance: f64::INFINITY, ..parameters() };
         let lens = ThinLens::new(&p).unwrap();
-        let a = lens.ray(Vec2::new(0.1, 0.9), Vec2::new(0.1, 0.2));
-        let b = lens.ray(Vec2::new(0.1, 0.9), Vec2::new(0.9, 0.6));
+        let a = lens.ray(Vec2::new(0.1, 0.9), Vec2::new(-0.8, -0.6));
+        let b = lens.ray(Vec2::new(0.1, 0.9), Vec2::new(0.8, 0.2));
         assert!(close(a.direction, b.direction) && !close(a.origin, b.origin));
     }
 
     #[test]
     fn vignetting_is_the_fourth_power_of_the_cosine() {
         let lens = ThinLens::new(&parameters()).unwrap();
-        let corner = lens.ray(Vec2::new(0.0, 0.0), Vec2::new(0.5, 0.5));
+        let corner = lens.ray(Vec2::new(0.0, 0.0), Vec2::new(0.0, 0.0));
         assert!((corner.importance - corner.direction.y.powi(4)).abs() < 1e-6);
         let flat = ThinLens::new(&ThinLensParameters { vignetting: false, ..parameters() }).unwrap();
-        assert_eq!(flat.ray(Vec2::new(0.0, 0.0), Vec2::new(0.5, 0.5)).importance, 1.0);
+        assert_eq!(flat.ray(Vec2::new(0.0, 0.0), Vec2::new(0.0, 0.0)).importance, 1.0);
     }
 
     #[test]
@@ -222,7 +235,7 @@ mod tests {
             for i in 0..100 {
                 let u = |k: u32| ((i * k) % 101) as Real / 101.0;
                 let film = Vec2::new(1.2 * u(37) - 0.1, 1.2 * u(59) - 0.1);
-                let ray = lens.ray(film, Vec2::new(u(17), u(71)));
+                let ray = lens.ray(film, Vec2::new(2.0 * u(17) - 1.0, 2.0 * u(71) - 1.0));
                 let found = lens.film_position(ray.origin, ray.direction).unwrap();
                 assert!((found.position.x - film.x).abs() + (found.position.y - film.y).abs() < 1e-5);
                 assert!((found.importance - ray.importance).abs() < 1e-5);
@@ -239,7 +252,7 @@ mod tests {
         for (x, y) in [(0.5, 0.5), (0.05, 0.9), (0.99, 0.3)] {
             let at = |dx: f64, dy: f64| {
                 let film = Vec2::new((x + dx) as Real, (y + dy) as Real);
-                let d = lens.ray(film, Vec2::new(0.9, 0.2)).direction;
+                let d = lens.ray(film, Vec2::new(0.8, -0.6)).direction;
                 d.cast::<f64>()
             };
             let h = 0.01;

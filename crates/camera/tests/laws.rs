@@ -1,6 +1,6 @@
 //! The lens is sampled evenly, and the film is a faithful map of directions.
 
-use indigo_camera::{ThinLens, ThinLensParameters};
+use indigo_camera::{Aperture, Blades, Camera, GreyImage, ThinLens, ThinLensParameters};
 use indigo_math::{Float, Real, Vec2, Vec3, Vec3d};
 use indigo_testkit::chi2::{Chi2, Domain};
 use indigo_testkit::rng::Rng;
@@ -24,6 +24,10 @@ fn lens(focus_distance: f64, aperture_radius: f64) -> ThinLens {
     .expect("a camera that looks somewhere")
 }
 
+fn camera(focus_distance: f64, aperture_radius: f64) -> Camera {
+    Camera::new(lens(focus_distance, aperture_radius), Aperture::Circular)
+}
+
 fn random(rng: &mut Rng) -> Vec2 {
     Vec2::new(rng.uniform_f32() as Real, rng.uniform_f32() as Real)
 }
@@ -37,12 +41,72 @@ fn on_disk(at: Vec3, radius: f64) -> [f64; 3] {
 /// False-alarm probability 1e-4.
 #[test]
 fn rays_start_evenly_over_the_aperture() {
-    let lens = lens(5.0, 0.2);
+    let lens = camera(5.0, 0.2);
     let result = Chi2::new(Domain::Disk).run(
         |rng| Some(on_disk(lens.ray(Vec2::new(0.2, 0.9), random(rng)).origin, 0.2)),
         |_| std::f64::consts::FRAC_1_PI,
     );
     assert!(result.passed(), "{result}");
+}
+
+/// Apertures of every kind.
+fn apertures() -> Vec<(&'static str, Aperture)> {
+    let blades = |n, offset, radius| {
+        let blades = Blades::new(n, 0.4, offset, radius).expect("blades with an opening");
+        Aperture::generated(&blades)
+    };
+    let spot = |x: usize, y: usize| 1.0 - ((x as f32 - 9.0).hypot(y as f32 - 4.0) / 12.0).min(1.0);
+    let image = GreyImage { width: 16, height: 16, texels: (0..256).map(|i| spot(i % 16, i / 16)).collect() };
+    vec![
+        ("circle", Aperture::Circular),
+        ("triangle", blades(3, 0.24, 1e6)),
+        ("five curved blades", blades(5, 0.35, 0.6)),
+        ("seven blades from the far side", blades(7, 0.5, 0.4)),
+        ("a square that the square cuts", blades(4, 0.48, 1e6)),
+        ("image", Aperture::image(&image).expect("an image that is not black")),
+    ]
+}
+
+/// The density of lens points is the transmission over its integral, as drawn on cells; the domain is
+/// the square in which apertures are drawn. False-alarm probability 1e-4 each.
+#[test]
+fn lens_points_follow_the_drawing_of_the_aperture() {
+    const SIDE: usize = 64;
+    for (name, aperture) in apertures() {
+        let mask = aperture.draw(SIDE);
+        let sum: f64 = mask.cells.iter().map(|&c| f64::from(c)).sum();
+        let cell = |v: f64| ((v * SIDE as f64) as usize).min(SIDE - 1);
+        // Cells of the test are whole cells of the drawing.
+        let test = Chi2 { cells: [16, 16], ..Chi2::new(Domain::Square) };
+        let result = test.run(
+            |rng| {
+                let p = aperture.sample(random(rng));
+                Some([0.5 * (p.x.to_f64() + 1.0), 0.5 * (p.y.to_f64() + 1.0), 0.0])
+            },
+            |[x, y, _]| {
+                let transmission = f64::from(mask.cells[(SIDE - 1 - cell(y)) * SIDE + cell(x)]);
+                transmission * (SIDE * SIDE) as f64 / sum
+            },
+        );
+        assert!(result.passed(), "{name}: {result}");
+        let area = 4.0 * sum / (SIDE * SIDE) as f64;
+        assert!((area / aperture.area() - 1.0).abs() < 1e-3, "{name}: {area} against {}", aperture.area());
+    }
+}
+
+/// The map from the square is continuous almost everywhere and reaches the edges, so that even numbers
+/// make even points, and none of them leaves the drawing.
+#[test]
+fn extreme_numbers_give_points_of_the_aperture() {
+    const LAST: Real = 1.0 - Real::EPSILON / 2.0;
+    for (name, aperture) in apertures() {
+        for u in [0.0, 1e-7, 0.5, LAST] {
+            for v in [0.0, 1e-7, 0.5, LAST] {
+                let p = aperture.sample(Vec2::new(u, v));
+                assert!(p.x.abs() <= 1.0 && p.y.abs() <= 1.0, "{name}: {p:?}");
+            }
+        }
+    }
 }
 
 /// Where the rays of one film point cross a plane at a distance d they fill a disc of radius
@@ -51,7 +115,7 @@ fn rays_start_evenly_over_the_aperture() {
 #[test]
 fn the_blur_disc_grows_with_the_distance_from_the_plane_of_focus() {
     let (radius, focus) = (0.05, 4.0);
-    let lens = lens(focus, radius);
+    let lens = camera(focus, radius);
     for distance in [1.0, 2.5, 20.0] {
         let mut rng = Rng::new(3);
         let (mut right, mut up) = (Moments::default(), Moments::default());
@@ -74,7 +138,7 @@ fn the_blur_disc_grows_with_the_distance_from_the_plane_of_focus() {
 /// In the plane of focus there is no blur.
 #[test]
 fn the_plane_of_focus_is_sharp() {
-    let lens = lens(4.0, 0.05);
+    let lens = camera(4.0, 0.05);
     let mut rng = Rng::new(4);
     for _ in 0..1000 {
         let ray = lens.ray(Vec2::new(0.75, 0.25), random(&mut rng));
@@ -87,7 +151,7 @@ fn the_plane_of_focus_is_sharp() {
 /// positions have the variance 1/12 of the angles' tangents.
 #[test]
 fn film_positions_map_to_tangents() {
-    let lens = lens(1.0, 1e-6);
+    let lens = camera(1.0, 1e-6);
     let mut rng = Rng::new(5);
     let (mut across, mut along) = (Moments::default(), Moments::default());
     for _ in 0..100_000 {
@@ -105,7 +169,7 @@ fn film_positions_map_to_tangents() {
 #[test]
 fn extreme_numbers_give_rays() {
     for focus in [1e-3, 1.0, f64::INFINITY] {
-        let lens = lens(focus, 1.0);
+        let lens = camera(focus, 1.0);
         for film in [Vec2::new(0.0, 0.0), Vec2::new(-0.1, 1.1), Vec2::new(0.999_999_94, 0.5)] {
             for corner in [Vec2::new(0.0, 0.0), Vec2::new(0.999_999_94, 0.0), Vec2::new(0.5, 0.5)] {
                 let ray = lens.ray(film, corner);

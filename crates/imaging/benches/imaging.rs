@@ -40,7 +40,7 @@ fn report() {
         tone_mapping,
         white_balance: WhiteBalance::from_white([0.34567, 0.35850]).expect("D50 is a white"),
         downsize,
-        exposure: Exposure { aperture_radius: 0.005, lens_sensor_dist: 0.05, duration: 0.01 },
+        exposure: Exposure { aperture_area: 7.85e-5, lens_sensor_dist: 0.05, duration: 0.01 },
         foreground_alpha: false,
         region: None,
     };

@@ -25,8 +25,8 @@ pub struct PictureSettings {
 /// The facts of a camera that decide its exposure.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Exposure {
-    /// Radius of the aperture in metres.
-    pub aperture_radius: f64,
+    /// Area of the aperture's opening in m²: π r² for a circle of radius r.
+    pub aperture_area: f64,
     /// Distance from lens to sensor in metres.
     pub lens_sensor_dist: f64,
     /// How long the shutter is open, in seconds.
@@ -34,11 +34,10 @@ pub struct Exposure {
 }
 
 impl Exposure {
-    /// Exposure of the sensor in lux·s for a luminance of 1 cd/m²: the sensor sees the lens under
-    /// the projected solid angle π (r/d)².
+    /// Exposure of the sensor in lux·s for a luminance of 1 cd/m²: the sensor sees the opening, of
+    /// area A at a distance d, under the projected solid angle A / d².
     pub fn lux_seconds_per_nit(&self) -> f64 {
-        let ratio = self.aperture_radius / self.lens_sensor_dist;
-        std::f64::consts::PI * ratio * ratio * self.duration
+        self.aperture_area / (self.lens_sensor_dist * self.lens_sensor_dist) * self.duration
     }
 }
 

@@ -5,8 +5,11 @@ use indigo_film::{FilmSize, FilmState, Filter, LayerKind};
 use indigo_imaging::{Exposure, PictureSettings, ToneMapping, WhiteBalance, develop};
 
 /// π · (r/d)² · t = 2 with these.
-const EXPOSURE: Exposure =
-    Exposure { aperture_radius: 0.01, lens_sensor_dist: 0.02, duration: 8.0 / std::f64::consts::PI };
+const EXPOSURE: Exposure = Exposure {
+    aperture_area: 1e-4 * std::f64::consts::PI,
+    lens_sensor_dist: 0.02,
+    duration: 8.0 / std::f64::consts::PI,
+};
 
 fn settings(tone_mapping: ToneMapping) -> PictureSettings {
     PictureSettings {

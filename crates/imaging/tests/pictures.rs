@@ -18,11 +18,7 @@ fn settings(downsize: Filter) -> PictureSettings {
         tone_mapping: ToneMapping::Linear { scale: 1.0 },
         white_balance: WhiteBalance::NONE,
         downsize,
-        exposure: Exposure {
-            aperture_radius: 1.0,
-            lens_sensor_dist: 1.0,
-            duration: std::f64::consts::FRAC_1_PI,
-        },
+        exposure: Exposure { aperture_area: 1.0, lens_sensor_dist: 1.0, duration: 1.0 },
         foreground_alpha: false,
         region: None,
     }

@@ -124,7 +124,7 @@ impl SaveJob {
         }
         .metadata();
         metadata.set("seed", self.seed);
-        metadata.set("aperture_radius", scene.picture.exposure.aperture_radius);
+        metadata.set("aperture_area", scene.picture.exposure.aperture_area);
         metadata.set("lens_sensor_dist", scene.picture.exposure.lens_sensor_dist);
         metadata.set("exposure_duration", scene.picture.exposure.duration);
         metadata

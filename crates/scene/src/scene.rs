@@ -1,6 +1,6 @@
 //! A scene that can be traced.
 
-use indigo_camera::ThinLens;
+use indigo_camera::Camera;
 use indigo_film::{FilmFilter, FilmSize};
 use indigo_geom::{Accel, SurfacePoint};
 use indigo_imaging::PictureSettings;
@@ -17,7 +17,7 @@ pub struct Scene {
     /// All lights.
     pub lights: LightTable,
     /// The camera.
-    pub camera: ThinLens,
+    pub camera: Camera,
     /// All textures.
     pub textures: Vec<Texture>,
     pub(crate) materials: Vec<Material>,

@@ -5,6 +5,7 @@ use indigo_decl::{ResolveError, Resolved, Resolver};
 use indigo_diag::Severity;
 use indigo_geom::NoStore;
 use indigo_igs::Limits;
+use indigo_imaging::png::Depth;
 use indigo_scene::{LoadOptions, Loaded, Origin, load};
 
 /// A scene, and beside it a broken mesh, a broken picture and settings.
@@ -17,6 +18,10 @@ impl Resolver for Memory {
             "broken.obj" => b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n",
             "flat.obj" => b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 1 1\n",
             "broken.png" => b"not a picture",
+            "tiny.png" => return Ok(picture(path, [4, 4])),
+            "oblong.png" => return Ok(picture(path, [1024, 512])),
+            "odd.png" => return Ok(picture(path, [600, 600])),
+            "black.png" => return Ok(picture(path, [512, 512])),
             "inifile.xml" => {
                 b"<settings><width>40</width><height>30</height><max_depth>7</max_depth></settings>"
             }
@@ -24,6 +29,14 @@ impl Resolver for Memory {
         };
         Ok(Resolved { path: path.to_owned(), bytes: bytes.into() })
     }
+}
+
+/// A black PNG.
+fn picture(path: &str, [width, height]: [u32; 2]) -> Resolved {
+    let pixels = vec![[0.0; 4]; (width * height) as usize];
+    let picture = indigo_imaging::Picture { width, height, pixels };
+    let bytes = indigo_imaging::png::encode(&picture, &indigo_imaging::Metadata::default(), Depth::Eight);
+    Resolved { path: path.to_owned(), bytes: bytes.expect("a picture with pixels").into() }
 }
 
 /// The first lines of every scene here: complete, and without a complaint.
@@ -156,6 +169,35 @@ fn cameras() {
     let white = CAMERA.replace("</camera>", "<white_balance>D66</white_balance></camera>");
     let column = white.find("D66").unwrap() + 1;
     assert_eq!(found(&white), [format!("{LINE}:{column}:E0309")]);
+}
+
+/// Where and with which code a camera with an aperture shape is refused.
+fn expect_aperture(shape: &str, at: &str, code: &str) {
+    let camera = CAMERA.replace("</camera>", &format!("<aperture_shape>{shape}</aperture_shape></camera>"));
+    let column = camera.find(at).expect("the text is in the camera") + 1;
+    assert_eq!(found(&camera), [format!("{LINE}:{column}:{code}")], "{shape}");
+}
+
+#[test]
+fn apertures() {
+    let image = |path: &str| format!("<image><path>{path}</path></image>");
+    expect_aperture(&image("nowhere.png"), "nowhere.png", "E0302");
+    for path in ["broken.png", "broken.obj", "tiny.png", "oblong.png", "odd.png", "black.png"] {
+        expect_aperture(&image(path), path, "E0303");
+    }
+    let blades = |count: &str, offset: &str, radius: &str| {
+        format!(
+            "<generated><num_blades>{count}</num_blades><start_angle>0</start_angle><blade_offset>{offset}</blade_offset><blade_curvature_radius>{radius}</blade_curvature_radius></generated>"
+        )
+    };
+    expect_aperture(&blades("2", "0.3", "1"), "2</num_blades>", "E0203");
+    expect_aperture(&blades("10001", "0.3", "1"), "10001", "E0203");
+    expect_aperture(&blades("5", "0.3", "0.14"), "0.14", "E0203");
+    let good = CAMERA.replace(
+        "</camera>",
+        &format!("<aperture_shape>{}</aperture_shape></camera>", blades("5", "0.3", "1")),
+    );
+    assert_eq!(found(&good), Vec::<String>::new());
 }
 
 #[test]

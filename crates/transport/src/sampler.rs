@@ -18,11 +18,14 @@ impl Block {
     /// Choice of light and a point on it or a direction towards it, where light paths begin; one is free.
     pub const EMISSION: Self = Self(2);
 
+    /// Diffraction at the camera's aperture; two are free.
+    pub const DIFFRACTION: Self = Self(3);
+
     /// Blocks of each vertex.
     const STRIDE: u32 = 4;
 
     const fn of(vertex: u32, which: u32) -> Self {
-        Self(3 + Self::STRIDE * vertex + which)
+        Self(4 + Self::STRIDE * vertex + which)
     }
 
     /// Choice of light, two numbers for the point or direction on it, and roulette, at a vertex of the
@@ -90,7 +93,7 @@ mod tests {
 
     #[test]
     fn blocks_do_not_collide_and_can_be_replayed() {
-        let mut names = vec![Block::FILM, Block::LENS, Block::EMISSION];
+        let mut names = vec![Block::FILM, Block::LENS, Block::EMISSION, Block::DIFFRACTION];
         for vertex in 0..100 {
             names.extend([
                 Block::light(vertex),

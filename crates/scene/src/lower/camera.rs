@@ -1,9 +1,10 @@
 //! The camera.
 
+use super::{Context, aperture};
 use crate::codes;
 use crate::scene::FilmSettings;
 use crate::settings::{Origin, Settings};
-use indigo_camera::{ThinLens, ThinLensParameters};
+use indigo_camera::{Aperture, Camera, ThinLens, ThinLensParameters};
 use indigo_decl::Node;
 use indigo_diag::{Diagnostic, Sink};
 use indigo_geom::{Accel, Ray};
@@ -15,6 +16,7 @@ const ASPECT_TOLERANCE: f64 = 0.01;
 /// A camera whose focus may still have to be found.
 pub(super) struct Unfocused {
     lens: ThinLensParameters,
+    aperture: Aperture,
     autofocus: bool,
 }
 
@@ -23,7 +25,7 @@ pub(super) fn parameters(
     node: &Node,
     settings: &Settings,
     film: Option<&FilmSettings>,
-    sink: &mut Sink,
+    context: &mut Context,
 ) -> Option<Unfocused> {
     let (sensor_width, aspect) = (node.real("sensor_width"), node.real("aspect_ratio"));
     let autofocus = node.flag("autofocus");
@@ -42,17 +44,18 @@ pub(super) fn parameters(
         vignetting,
     };
     if let Some(film) = film {
-        warn_of_aspect(node, aspect, film, sink);
+        warn_of_aspect(node, aspect, film, context.sink);
     }
-    aperture(node, settings);
+    obstacles(node, settings);
+    let aperture = aperture::aperture(node, context);
     if ThinLens::new(&lens).is_none() {
-        sink.push(
+        context.sink.push(
             Diagnostic::error(codes::SINGULAR, node.span_of("up"), "<up> and <forwards> span no plane")
                 .expected("expected an <up> that does not point along <forwards>"),
         );
         return None;
     }
-    Some(Unfocused { lens, autofocus })
+    Some(Unfocused { lens, aperture, autofocus })
 }
 
 fn warn_of_aspect(node: &Node, aspect: f64, film: &FilmSettings, sink: &mut Sink) {
@@ -78,16 +81,11 @@ pub(super) fn diffraction(settings: &Settings, sink: &mut Sink) {
     settings.disregard("vignetting");
 }
 
-/// The shape of the aperture.
-fn aperture(node: &Node, settings: &Settings) {
+/// What stands before the lens.
+fn obstacles(node: &Node, settings: &Settings) {
     if !settings.bool("aperture_diffraction") || settings.origin("aperture_diffraction") == Origin::Default {
         // An obstacle map has an effect on diffraction alone.
         node.disregard_field("obstacle_map");
-    }
-    if let Some(shape) = node.node("aperture_shape").and_then(Node::alternative)
-        && shape.block.name == "circular"
-    {
-        shape.mark_used();
     }
 }
 
@@ -102,8 +100,13 @@ pub(super) fn focus(mut camera: Unfocused, accel: &Accel) -> Unfocused {
 }
 
 impl Unfocused {
-    /// The lens.
-    pub(super) fn into_lens(self) -> Option<ThinLens> {
-        ThinLens::new(&self.lens)
+    /// Area of the opening in m².
+    pub(super) fn aperture_area(&self) -> f64 {
+        self.aperture.area() * self.lens.aperture_radius.powi(2)
+    }
+
+    /// The camera.
+    pub(super) fn into_camera(self) -> Option<Camera> {
+        Some(Camera::new(ThinLens::new(&self.lens)?, self.aperture))
     }
 }

@@ -3,6 +3,7 @@
 //! Each part of the scene has a file. What none of them reads is reported at the end: it would have
 //! no effect.
 
+mod aperture;
 mod camera;
 mod environment;
 mod geometry;
@@ -80,7 +81,7 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
     camera::diffraction(settings, context.sink);
     let camera_node = find_camera(root, context.sink);
     let origin = camera_node.map_or(Vec3d::ZERO, |c| c.vec3("pos").into());
-    let camera = camera_node.and_then(|c| camera::parameters(c, settings, film.as_ref(), context.sink));
+    let camera = camera_node.and_then(|c| camera::parameters(c, settings, film.as_ref(), context));
 
     let mut meshes = MeshTable::new(root, context.sink);
     let mut materials = MaterialTable::new(root, context.sink);
@@ -95,7 +96,7 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
     // Media matter only to materials, each of which is an error as long as none of them is rendered.
     root.nodes("medium").for_each(Node::disregard);
 
-    let picture = picture::picture(root, camera_node, settings, context.sink);
+    let picture = picture::picture(root, camera_node.zip(camera.as_ref()), settings, context.sink);
     let threshold = usize::try_from(settings.int("bih_tri_threshold").value).unwrap_or(usize::MAX);
     let caching = settings.bool("cache_trees");
     if lights.is_empty() && !context.sink.has_errors() {
@@ -121,7 +122,7 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
             return None;
         }
     };
-    let camera = camera::focus(camera?, &accel).into_lens()?;
+    let camera = camera::focus(camera?, &accel).into_camera()?;
     let lights = lights.into_table(&geometry, &accel);
     let (first_slot, slots) = geometry.into_slots();
     let (materials, textures) = materials.into_arenas();

@@ -1,5 +1,6 @@
 //! Film, picture and output.
 
+use super::camera::Unfocused;
 use crate::codes;
 use crate::scene::{FilmSettings, OutputSettings};
 use crate::settings::Settings;
@@ -71,7 +72,7 @@ fn filter(settings: &Settings, field: &str, default: Filter, sink: &mut Sink) ->
 /// How the picture is made; `None` after reporting what is wrong.
 pub(super) fn picture(
     root: &Node,
-    camera: Option<&Node>,
+    camera: Option<(&Node, &Unfocused)>,
     settings: &Settings,
     sink: &mut Sink,
 ) -> Option<PictureSettings> {
@@ -79,7 +80,7 @@ pub(super) fn picture(
     let downsize = filter(settings, "downsize_filter", Filter::MN_DEFAULT, sink);
     let foreground_alpha = settings.bool("render_foreground_alpha");
     settings.refuse_true("watermark", None, sink);
-    let camera = camera?;
+    let (camera, opening) = camera?;
     let white = camera.text("white_balance");
     let Some(xy) = illuminant::white_point(&white.value) else {
         sink.push(
@@ -89,7 +90,7 @@ pub(super) fn picture(
         return None;
     };
     let exposure = Exposure {
-        aperture_radius: camera.real("aperture_radius"),
+        aperture_area: opening.aperture_area(),
         lens_sensor_dist: camera.real("lens_sensor_dist"),
         duration: camera.real("exposure_duration"),
     };

@@ -180,7 +180,8 @@ impl Bidirectional {
         }
         let wi = to_lens / distance2.sqrt();
         let Some(film) = scene.camera.film_position(camera.origin, -wi) else { return };
-        let position = film.position;
+        // Where the light falls that the lens sends to `film.position` when it is deflected.
+        let position = film.position - camera.offset;
         // Only what falls on the film is worth a ray.
         if !(position.x >= 0.0 && position.x <= 1.0 && position.y >= 0.0 && position.y <= 1.0) {
             return;
@@ -193,8 +194,8 @@ impl Bidirectional {
         let cos = wi.dot(light.at.n_g).abs();
         let found = LanePdf::splat(pdf * self.film_density * cos / distance2);
         let others = light.prefix.others(found, scattered.pdf_rev);
-        let weight = Weight::new(light.prefix.ratio, others);
-        let value = light.beta * scattered.f_cos * (film.importance * pdf / distance2);
+        let weight = Weight::joint(light.prefix.ratio, others, camera.ratio, LanePdf::ZERO);
+        let value = light.beta.times(camera.ratio) * scattered.f_cos * (film.importance * pdf / distance2);
         if is_unblocked(scene, &Point::of_surface(&light.at), &Point::free(camera.origin)) {
             let unweighted = value / weight.mean_ratio;
             record.contribution((events + 1, 1), Some(position), unweighted, weight.weight);
@@ -210,8 +211,9 @@ impl Bidirectional {
     ) -> PathSample {
         let Sample { scene, lambda, camera, events } = sample;
         let mut radiance = SampledSpectrum::ZERO;
-        let mut beta = SampledSpectrum::splat(camera.importance);
-        let mut step = Step::from_camera(scene.camera.pdf_direction(camera.direction) * self.film_density);
+        let mut beta = SampledSpectrum::splat(camera.importance).times(camera.ratio);
+        let pdf = scene.camera.pdf_direction(camera.direction) * self.film_density;
+        let mut step = Step::from_camera(pdf, camera.ratio);
         let mut from = Receiver::all_round(camera.origin);
         let mut ray = Ray::new(camera.origin, camera.direction);
         let (mut alpha, mut depth, mut vertex) = (0.0, 0, 0);

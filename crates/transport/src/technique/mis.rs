@@ -68,17 +68,11 @@ pub(super) struct Step {
 
 impl Step {
     /// From a point of the lens, by a direction of density `pdf` (1/sr). The lens cannot be met by
-    /// chance, so no strategy ends before it.
+    /// chance, so no strategy ends before it. Every strategy draws the diffraction at the lens in the
+    /// same way; `ratio` is its density in each lane, over the hero's.
     #[inline]
-    pub fn from_camera(pdf: Real) -> Self {
-        Self {
-            ratio: LanePdf::ONE,
-            before: LanePdf::ONE,
-            pdf,
-            others: LanePdf::ZERO,
-            cos: 0.0,
-            is_connectable: true,
-        }
+    pub fn from_camera(pdf: Real, ratio: LanePdf) -> Self {
+        Self { ratio, before: ratio, pdf, others: LanePdf::ZERO, cos: 0.0, is_connectable: true }
     }
 
     /// From a lamp or the environment, whose first density is `first` and second `second`

@@ -66,8 +66,10 @@ fn power_heuristic(a: Real, b: Real) -> Real {
 }
 
 impl Path {
-    fn new() -> Self {
-        Self { beta: SampledSpectrum::ONE, ratio: LanePdf::ONE, radiance: SampledSpectrum::ZERO, last: None }
+    /// From the camera, whose direction has a density for each wavelength of its own: `ratio`, over
+    /// the hero's.
+    fn new(ratio: LanePdf) -> Self {
+        Self { beta: SampledSpectrum::ONE.times(ratio), ratio, radiance: SampledSpectrum::ZERO, last: None }
     }
 
     /// Adds light that the ray itself met, which light sampling would draw with `pdf_light` (1/sr).
@@ -105,7 +107,7 @@ pub fn trace(
     camera: &CameraRay,
     events: Events,
 ) -> PathSample {
-    let mut path = Path::new();
+    let mut path = Path::new(camera.ratio);
     let mut ray = Ray::new(camera.origin, camera.direction);
     let mut alpha = 0.0;
     let mut depth = 0;

@@ -50,7 +50,8 @@ impl Tracer {
         let [.., wavelength, _] = numbers.block(Block::FILM);
         let lambda = SampledWavelengths::sample(wavelength);
         let [x, y, ..] = numbers.block(Block::LENS);
-        let camera = scene.camera.ray(position, Vec2::new(x, y));
+        let [d0, d1, ..] = numbers.block(Block::DIFFRACTION);
+        let camera = scene.camera.sample(position, Vec2::new(x, y), Vec2::new(d0, d1), &lambda);
         let path = match self {
             Self::Path => path::trace(scene, numbers, &lambda, &camera, events),
             Self::Bidirectional(b) => b.trace(scene, numbers, &lambda, &camera, events, record),

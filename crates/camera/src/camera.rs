@@ -1,0 +1,97 @@
+//! A camera: a lens behind an aperture.
+
+use crate::diffraction::deflection::Deflection;
+use crate::{Aperture, FarField, FilmPosition, LensRay, ThinLens};
+use indigo_math::{Real, Vec2, Vec3};
+use indigo_spectrum::{LanePdf, SampledWavelengths};
+
+/// Where paths begin: a thin lens, the opening through which light reaches it, and what that opening
+/// does to light.
+#[derive(Clone, Debug)]
+pub struct Camera {
+    lens: ThinLens,
+    aperture: Aperture,
+    deflection: Option<Box<Deflection>>,
+}
+
+/// The beginning of a path at the camera.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CameraRay {
+    /// Point on the lens.
+    pub origin: Vec3,
+    /// Unit direction.
+    pub direction: Vec3,
+    /// What its radiance counts on the film: 1 on the axis, cos⁴ off it with vignetting.
+    pub importance: Real,
+    /// The diffraction of this sample: from the film position that the path counts for to the one that
+    /// the ray belongs to. A light path that meets the lens at `origin` is deflected by as much.
+    pub offset: Vec2,
+    /// Density of that offset for each wavelength, over the hero's.
+    pub ratio: LanePdf,
+}
+
+impl CameraRay {
+    fn new(ray: LensRay, offset: Vec2, ratio: LanePdf) -> Self {
+        Self { origin: ray.origin, direction: ray.direction, importance: ray.importance, offset, ratio }
+    }
+}
+
+impl Camera {
+    /// A lens behind an aperture whose square has the aperture's radius as half its side.
+    pub fn new(lens: ThinLens, aperture: Aperture) -> Self {
+        Self { lens, aperture, deflection: None }
+    }
+
+    /// The same camera with diffraction by ray: `field` is the far field of what light passes.
+    #[must_use]
+    pub fn with_diffraction(self, field: &FarField) -> Self {
+        let cycle = self.lens.cycle_per_nm();
+        Self { deflection: Some(Box::new(Deflection::new(field, cycle))), ..self }
+    }
+
+    /// The ray of a film position, from (0, 0), top left, to (1, 1), for two numbers in [0, 1) that
+    /// choose a point of the aperture, evenly over what is open. There is no diffraction.
+    #[inline]
+    pub fn ray(&self, film: Vec2, lens: Vec2) -> CameraRay {
+        CameraRay::new(self.lens.ray(film, self.aperture.sample(lens)), Vec2::new(0.0, 0.0), LanePdf::ONE)
+    }
+
+    /// [`ray`](Self::ray) with what diffraction does to it, for two more numbers in [0, 1) and the
+    /// wavelengths of the path.
+    #[inline]
+    pub fn sample(
+        &self,
+        film: Vec2,
+        lens: Vec2,
+        diffraction: Vec2,
+        lambda: &SampledWavelengths,
+    ) -> CameraRay {
+        let Some(deflection) = &self.deflection else { return self.ray(film, lens) };
+        let (offset, ratio) = deflection.sample(diffraction, lambda);
+        CameraRay::new(self.lens.ray(film + offset, self.aperture.sample(lens)), offset, ratio)
+    }
+
+    /// The film position that sees along a direction from a point of the lens, without diffraction: see
+    /// [`ThinLens::film_position`].
+    #[inline]
+    pub fn film_position(&self, origin: Vec3, direction: Vec3) -> Option<FilmPosition> {
+        self.lens.film_position(origin, direction)
+    }
+
+    /// Density (1/sr) of unit directions for film positions that are uniform over the film: see
+    /// [`ThinLens::pdf_direction`].
+    #[inline]
+    pub fn pdf_direction(&self, direction: Vec3) -> Real {
+        self.lens.pdf_direction(direction)
+    }
+
+    /// The viewing direction.
+    pub fn forwards(&self) -> Vec3 {
+        self.lens.forwards()
+    }
+
+    /// The shape of the opening.
+    pub fn aperture(&self) -> &Aperture {
+        &self.aperture
+    }
+}

@@ -1,0 +1,212 @@
+//! The far field of an opening: where light of one wavelength goes that passes it.
+//!
+//! The sensor lies in the plane where the lens brings the light together, so that the diffraction seen
+//! there is Fraunhofer's: a point's light of wavelength λ is spread over offsets x on the sensor by
+//!
+//! PSF_λ(x) = (2a / (λ s))² P(x · 2a / (λ s)),   P(f) = |Â(f)|² / ∫ |Â|²,
+//!
+//! with the Fourier transform Â of the amplitude A behind the opening drawn on the unit square, the
+//! square's side 2a and the distance s from lens to sensor (Goodman, "Introduction to Fourier Optics",
+//! sections 4.4 and 6.2). f counts cycles across the square. One P serves all wavelengths.
+//!
+//! P is kept in polar coordinates, as constant numbers in rings and sectors: fine rings where the core
+//! and its dark rings are, wider ones where only the spectrum's breadth can be seen. P(-f) = P(f), since
+//! A is real, so half a circle of sectors suffices.
+//!
+//! Beyond the last ring each direction goes on by the law of an edge. A piece of an edge of length dl
+//! sends its light at right angles to itself, dl / (4π² r²) of power per unit of r to either side: from a
+//! drawing's autocorrelation at small shifts τ, which is less than at 0 by half of ∮ |τ · n| dl, whose
+//! transform this is (Porod's law of small-angle scattering, in two dimensions). In polar coordinates
+//! that is a density that falls as r⁻³ in every direction; a circle's total beyond r is 2 / (π² r), as of the
+//! Airy disc.
+
+// tidy: load-time mathematics
+
+use super::fourier::PowerSpectrum;
+use crate::{GreyImage, Mask};
+use rayon::prelude::*;
+
+/// Cells along a side of the drawing.
+pub(crate) const SIDE: usize = 2048;
+/// Cells along a side of the drawing for the core, which needs fewer but finer frequencies.
+const CORE_SIDE: usize = 256;
+/// Where the core ends, in cycles: a tenth of the core's cells, where folding is far below 1 %.
+const CORE: usize = 24;
+/// Steps per cycle in the core: a linear rise between them blurs by 1/60 of the first dark ring's radius.
+const CORE_STEPS: usize = 16;
+/// Where the drawing's spectrum ends that is used: at half its cells' own frequency, below which
+/// folding adds less than 1 %.
+const LAST: usize = SIDE / 4;
+/// Steps per cycle beyond the core: as many as the spectrum of something of width 1 needs.
+const STEPS: usize = 2;
+/// Rings per cycle in the core.
+const CORE_RINGS: usize = 8;
+/// Rings from the core's end to the last: each is 0.8 % wider than the one before, less than
+/// the wavelengths of a colour spread it.
+const OUTER_RINGS: usize = 392;
+/// Sectors of half a circle: a third to two thirds of a cycle wide in the last ring.
+pub const SECTORS: usize = 4096;
+
+/// The far field of an opening, in cycles across its square.
+#[derive(Clone, Debug)]
+pub struct FarField {
+    /// Where rings begin; the last number is where the last one ends.
+    radii: Vec<f64>,
+    /// P in each ring's sectors, ring after ring, and at last r³ P beyond them.
+    density: Vec<f32>,
+    /// Angle of each sector in radians.
+    widths: Vec<f64>,
+    /// The part of the light that goes farther than each radius.
+    beyond: Vec<f64>,
+}
+
+impl FarField {
+    /// The far field of an amplitude drawn on `SIDE` × `SIDE` cells. `None` where all of it is dark.
+    pub(super) fn new(amplitude: &Mask) -> Option<Self> {
+        let core = PowerSpectrum::new(&shrunk(amplitude, CORE_SIDE), CORE_STEPS, CORE);
+        let outer = PowerSpectrum::new(amplitude, STEPS, LAST);
+        let radii = radii();
+        let rings = radii.len() - 1;
+        let mut density = vec![0.0; (rings + 1) * SECTORS];
+        density.par_chunks_mut(SECTORS).take(rings).enumerate().for_each(|(i, row)| {
+            let (lo, hi) = (radii[i], radii[i + 1]);
+            let (spectrum, step) = if hi <= CORE as f64 { (&core, CORE_STEPS) } else { (&outer, STEPS) };
+            // Two points for each of the spectrum's own.
+            let points = ((hi - lo) * 2.0 * step as f64).ceil() as usize;
+            for (j, out) in row.iter_mut().enumerate() {
+                let [x, y] = direction(j as f64 + 0.5);
+                *out = ring_mean(lo, hi, points, |r| spectrum.at(r * x, r * y)) as f32;
+            }
+        });
+        let widths = (0..SECTORS).map(sector_width).collect();
+        let mut field = Self { radii, density, widths, beyond: vec![] };
+        field.add_tail();
+        field.normalise().then_some(field)
+    }
+
+    /// Brings all light to 1; false where there is none.
+    fn normalise(&mut self) -> bool {
+        let mut sum = 0.0;
+        let mut beyond: Vec<f64> = (0..self.radii.len()).map(|i| self.ring_power(i).sum()).collect();
+        for power in beyond.iter_mut().rev() {
+            sum += *power;
+            *power = sum;
+        }
+        if sum.is_nan() || sum <= 0.0 {
+            return false;
+        }
+        self.density.iter_mut().for_each(|d| *d = (f64::from(*d) / sum) as f32);
+        self.beyond = beyond.iter().map(|b| b / sum).collect();
+        true
+    }
+
+    /// r³ P beyond the rings: its mean over the last octave, in which the law of an edge holds.
+    fn add_tail(&mut self) {
+        let rings = self.radii.len() - 1;
+        let first = self.radii.partition_point(|&r| r < 0.5 * LAST as f64);
+        let (inside, tail) = self.density.split_at_mut(rings * SECTORS);
+        for (j, out) in tail.iter_mut().enumerate() {
+            let (mut sum, mut weights) = (0.0, 0.0);
+            for i in first..rings {
+                let (lo, hi) = (self.radii[i], self.radii[i + 1]);
+                let weight = (hi / lo).ln();
+                sum += weight * f64::from(inside[i * SECTORS + j]) * (0.5 * (lo + hi)).powi(3);
+                weights += weight;
+            }
+            *out = (sum / weights) as f32;
+        }
+    }
+
+    /// Where rings begin, and where the last one ends.
+    pub fn radii(&self) -> &[f64] {
+        &self.radii
+    }
+
+    /// P at a distance, sector by sector: these numbers times the factor beside them.
+    pub fn at_radius(&self, r: f64) -> (&[f32], f64) {
+        let i = self.radii.partition_point(|&edge| edge <= r).max(1) - 1;
+        let factor = if i + 1 == self.radii.len() { r.powi(-3) } else { 1.0 };
+        (&self.density[i * SECTORS..(i + 1) * SECTORS], factor)
+    }
+
+    /// P in each ring's sectors, ring after ring, and at last r³ P beyond them.
+    pub(super) fn density(&self) -> &[f32] {
+        &self.density
+    }
+
+    /// Power of ring `i`, or of all that lies beyond the rings, in each sector and the one opposite.
+    pub(super) fn ring_power(&self, i: usize) -> impl Iterator<Item = f64> + '_ {
+        let weight = match self.radii.get(i + 1) {
+            Some(hi) => hi * hi - self.radii[i] * self.radii[i],
+            // 2 ∫ r⁻³ r dr.
+            None => 2.0 / self.radii[i],
+        };
+        let row = &self.density[i * SECTORS..(i + 1) * SECTORS];
+        row.iter().zip(&self.widths).map(move |(&d, width)| f64::from(d) * weight * width)
+    }
+
+    /// The part of the light that goes farther than a distance.
+    pub fn beyond(&self, r: f64) -> f64 {
+        let i = self.radii.partition_point(|&edge| edge <= r).max(1) - 1;
+        let (lo, far) = (self.radii[i], self.beyond[i]);
+        match self.radii.get(i + 1) {
+            Some(hi) => far + (r * r - lo * lo) / (hi * hi - lo * lo) * (self.beyond[i + 1] - far),
+            None => far * lo / r,
+        }
+    }
+
+    /// Angle of each sector in radians.
+    pub fn sector_widths(&self) -> &[f64] {
+        &self.widths
+    }
+}
+
+/// The angle of a direction from the right, in turns, where `sector` counts sectors and parts of them
+/// from straight down to straight up.
+pub(super) fn turns(sector: f64) -> f64 {
+    let [x, y] = direction(sector);
+    y.atan2(x) / std::f64::consts::TAU
+}
+
+/// The sector of a direction with x ≥ 0, and where in it, as one number: an angle in all but its speed,
+/// without its cost.
+#[inline]
+pub fn sector_of<T: indigo_math::Float>(x: T, y: T) -> T {
+    let half = T::from_f64(0.5 * SECTORS as f64);
+    half + half * y / (x + y.abs())
+}
+
+/// The unit direction at a place among the sectors: the inverse of [`sector_of`].
+pub fn direction(sector: f64) -> [f64; 2] {
+    let y = 2.0 * sector / SECTORS as f64 - 1.0;
+    let x = 1.0 - y.abs();
+    let length = x.hypot(y);
+    [x / length, y / length]
+}
+
+/// The angle of a sector in radians.
+fn sector_width(j: usize) -> f64 {
+    (turns(j as f64 + 1.0) - turns(j as f64)) * std::f64::consts::TAU
+}
+
+fn radii() -> Vec<f64> {
+    let growth = (LAST as f64 / CORE as f64).ln() / OUTER_RINGS as f64;
+    let inner = (0..CORE * CORE_RINGS).map(|i| i as f64 / CORE_RINGS as f64);
+    inner.chain((0..=OUTER_RINGS).map(|i| CORE as f64 * (growth * i as f64).exp())).collect()
+}
+
+/// The mean of a function over a ring's width, by area.
+fn ring_mean(lo: f64, hi: f64, points: usize, f: impl Fn(f64) -> f64) -> f64 {
+    let (mut sum, mut weights) = (0.0, 0.0);
+    for k in 0..points {
+        let r = lo + (hi - lo) * (k as f64 + 0.5) / points as f64;
+        sum += r * f(r);
+        weights += r;
+    }
+    sum / weights
+}
+
+/// A drawing on fewer cells, each the mean of those that it covers.
+fn shrunk(mask: &Mask, side: usize) -> Mask {
+    GreyImage { width: mask.side, height: mask.side, texels: mask.cells.clone() }.resized(side, |t| t)
+}

@@ -1,0 +1,35 @@
+//! What diffracts: an aperture and what stands before it.
+
+// tidy: load-time mathematics
+
+use super::far_field::{FarField, SIDE};
+use crate::{Aperture, GreyImage, Mask};
+
+/// What an opening lets through, together with what stands before it.
+#[derive(Clone, Debug)]
+pub struct Pupil {
+    aperture: Aperture,
+    obstacles: Option<GreyImage>,
+}
+
+impl Pupil {
+    /// An aperture and, laid over its square, an image of how much light obstacles let through.
+    pub fn new(aperture: Aperture, obstacles: Option<GreyImage>) -> Self {
+        Self { aperture, obstacles }
+    }
+
+    /// The amplitude behind it, drawn on `side` × `side` cells; `side` is a power of two.
+    pub fn draw_amplitude(&self, side: usize) -> Mask {
+        let mut mask = self.aperture.draw_amplitude(side);
+        if let Some(obstacles) = &self.obstacles {
+            let before = obstacles.resized(side, |t| t.max(0.0).sqrt());
+            mask.cells.iter_mut().zip(before.cells).for_each(|(a, b)| *a *= b);
+        }
+        mask
+    }
+
+    /// Its far field; `None` where no light passes.
+    pub fn far_field(&self) -> Option<FarField> {
+        FarField::new(&self.draw_amplitude(SIDE))
+    }
+}
