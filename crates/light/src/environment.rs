@@ -9,8 +9,7 @@ use indigo_spectrum::{SampledSpectrum, SampledWavelengths};
 
 /// The surroundings of a scene.
 ///
-/// A direction is drawn by one of the lights, chosen by how much light it gives; its density is the
-/// mixture of all of theirs. Light enters the scene through a disc as wide as the scene, across its
+/// A direction is drawn by one of the lights; its density is the mixture of all of theirs. Light enters the scene through a disc as wide as the scene, across its
 /// direction.
 #[derive(Clone, Debug)]
 pub(crate) struct Environment {
@@ -24,7 +23,12 @@ pub(crate) struct Environment {
 impl Environment {
     /// Lights round a scene that lies within a sphere of some centre and radius in metres.
     pub fn new(lights: Vec<DistantLight>, (center, radius_m): (Vec3d, f64)) -> Self {
-        let weights: Vec<f64> = lights.iter().map(Distant::total_luminance).collect();
+        let totals: Vec<f64> = lights.iter().map(Distant::total_luminance).collect();
+        let sum: f64 = totals.iter().sum();
+        // Half by how much light each gives, half evenly: where the strongest, the sun above all, is
+        // hidden, the others are all there is.
+        let weight = |total: &f64| if sum > 0.0 { total / sum } else { 0.0 } + 1.0 / totals.len() as f64;
+        let weights: Vec<f64> = totals.iter().map(weight).collect();
         Self { choice: AliasTable::new(&weights), lights, center: center.cast(), radius: radius_m as Real }
     }
 

@@ -4,6 +4,7 @@ mod area;
 mod environment;
 pub mod kinds;
 mod query;
+pub mod sky;
 mod table;
 
 pub use area::AreaLight;

@@ -17,6 +17,8 @@ indigo_decl::codes! {
     NOT_UNIT = "W0307";
     /// Texels of an environment map that cannot be light.
     BAD_TEXELS = "W0308";
+    /// A turbidity beyond what the model of the sky knows.
+    TURBIDITY = "W0309";
     /// A name that nothing defines.
     UNKNOWN_NAME = "E0301";
     /// A file that cannot be had.

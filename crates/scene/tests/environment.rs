@@ -128,6 +128,39 @@ fn maps_that_cannot_be_light_are_refused() {
     assert_eq!(codes(&loaded(&map("probe.float"))), ["E0303"]);
 }
 
+fn sky(more: &str) -> String {
+    format!("<skylight><sundir>0 3 4</sundir>{more}</skylight>")
+}
+
+#[test]
+fn every_part_of_a_skylight_counts() {
+    let (zenith, sun, low) = ([0.1, 0.0, 1.0], [0.0, 0.6, 0.8], [0.0, 0.0, -1.0]);
+    let plain = loaded(&sky("<turbidity>3</turbidity>"));
+    assert_eq!(codes(&plain), [""; 0]);
+    let (blue, white) = (radiance(&plain, zenith), radiance(&plain, sun));
+    assert!(blue > 1e6 && white > 1e3 * blue && radiance(&plain, low) == 0.0);
+    // Half a degree beside the sun there is the sky alone.
+    assert!(radiance(&plain, [0.0, 0.607, 0.7947]) < 1e-3 * white);
+    let differs = |more: &str, factor: std::ops::Range<f64>| {
+        let other = radiance(&loaded(&sky(more)), zenith) / blue;
+        assert!(factor.contains(&other), "{more}: {other}");
+    };
+    differs("<turbidity>6</turbidity>", 1.2..3.0);
+    differs("<turbidity>3</turbidity><model>preetham</model>", 1.5..4.0);
+    differs("<turbidity>3</turbidity><model>hosek</model>", 0.999_999..1.000_001);
+    let space = loaded(&sky("<turbidity>3</turbidity><extra_atmospheric>true</extra_atmospheric>"));
+    assert_eq!((radiance(&space, zenith), space.scene.as_ref().map(|s| s.lights.len())), (0.0, Some(1)));
+    assert!(radiance(&space, sun) > 1.2 * white);
+}
+
+#[test]
+fn suns_and_skies_that_cannot_be_are_named() {
+    assert_eq!(codes(&loaded(&sky("<turbidity>3</turbidity>").replace("0 3 4", "0 3 0"))), ["E0203"]);
+    assert_eq!(codes(&loaded(&sky("<turbidity>30</turbidity>"))), ["W0309"]);
+    assert_eq!(codes(&loaded(&sky("<turbidity>1.2</turbidity>"))), [""; 0]);
+    assert_eq!(codes(&loaded(&sky("<turbidity>1.2</turbidity><model>preetham</model>"))), ["W0309"]);
+}
+
 /// Several distant lights add.
 #[test]
 fn a_map_and_a_background_add() {

@@ -215,7 +215,6 @@ fn lamps() {
 
 #[test]
 fn whatever_is_not_rendered_yet_is_named_where_it_stands() {
-    expect_one("<skylight><sundir>0 0 1</sundir><turbidity>2</turbidity></skylight>", "<skylight>", "E0205");
     expect_one(
         "<exit_portal><pos>0 0 0</pos><scale>1</scale><mesh_name>tri</mesh_name></exit_portal>",
         "<exit_portal>",

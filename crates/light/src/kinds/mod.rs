@@ -10,7 +10,9 @@ pub mod mesh;
 pub mod placement;
 pub mod portal;
 pub mod rectangle;
+pub mod sky;
 pub mod skylight;
+pub mod sun;
 
 use indigo_math::{Real, Vec3};
 use indigo_spectrum::{SampledSpectrum, SampledWavelengths};
@@ -91,4 +93,6 @@ macro_rules! distant_lights {
 distant_lights! {
     background => Background,
     env_map => EnvMap,
+    sky => Sky,
+    sun => Sun,
 }

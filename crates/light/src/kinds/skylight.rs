@@ -1,11 +1,13 @@
-//! `skylight`: the sun and the sky.
+//! `skylight`: the sun and the sky, each a light of its own ([`sun`](super::sun), [`sky`](super::sky)).
 
 use indigo_decl::{Block, Field, Kind, Later, Presence, Range};
 
 /// The declaration of `skylight`.
 pub static BLOCK: Block = Block::new(
     "skylight",
-    "Lights the scene with the sun and the light that the atmosphere scatters. Up is the z axis.",
+    "Lights the scene with the sun and the light that the atmosphere scatters. Up is the z axis; below \
+     the horizon all is black. The sun is a disc of its true size, 0.5358 degrees across. With `hosek` \
+     it darkens towards its limb, with `preetham` and `extra_atmospheric` it is even.",
     &[
         Field::new(
             "sundir",
@@ -17,7 +19,8 @@ pub static BLOCK: Block = Block::new(
             "turbidity",
             Kind::Real,
             Presence::Required,
-            "How hazy the air is: about 2 on a very clear day, 5 in haze.",
+            "How hazy the air is: about 2 on a very clear day, 5 in haze. `hosek` knows values from 1 to 10, \
+             `preetham` from 1.7 to 10; beyond them the nearest is taken, with a warning.",
         )
         .range(Range::Above(0.0)),
         Field::new(

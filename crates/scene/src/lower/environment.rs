@@ -9,6 +9,12 @@ use indigo_formats::{FormatError, float_map};
 use indigo_light::DistantLight;
 use indigo_light::kinds::background::Background;
 use indigo_light::kinds::env_map::{EnvMap, Layout};
+use indigo_light::kinds::sky::{Sky, SkyModel};
+use indigo_light::kinds::sun::{self, Sun};
+use indigo_light::sky::hosek::{self, HosekSky};
+use indigo_light::sky::preetham::{self, PreethamSky};
+use indigo_light::sky::space;
+use indigo_math::Vec3d;
 use indigo_spectrum::read;
 
 /// All distant lights of a scene; their radiances add.
@@ -17,10 +23,56 @@ pub(super) fn distant_lights(root: &Node, context: &mut Context) -> Vec<DistantL
     if let Some(spectrum) = root.node("background").and_then(|b| b.node("spectrum")) {
         lights.push(Background(read::emission(spectrum, context.sink)).into());
     }
+    if let Some(node) = root.node("skylight") {
+        lights.extend(skylight(node, context));
+    }
     if let Some(map) = root.node("env_map").and_then(Node::alternative) {
         lights.extend(env_map(map, context).map(DistantLight::from));
     }
     lights
+}
+
+/// The sun, and the sky unless it is black.
+fn skylight(node: &Node, context: &mut Context) -> Vec<DistantLight> {
+    let sundir = Vec3d::from(node.vec3("sundir"));
+    let turbidity = node.real("turbidity");
+    let is_preetham = node.text("model").value == "preetham";
+    let is_outside = node.bool("extra_atmospheric");
+    let Some(towards) = sundir.try_normalized().filter(|d| d.z > 0.0) else {
+        context.sink.push(
+            Diagnostic::error(
+                indigo_decl::codes::OUT_OF_RANGE,
+                node.span_of("sundir"),
+                "the sun must stand above the horizon",
+            )
+            .expected(format!("expected z > 0, found {}", sundir.z)),
+        );
+        return vec![];
+    };
+    if is_outside {
+        let disc = space::sun(Sun::solid_angle(sun::RADIUS));
+        return vec![Sun::new(towards, sun::RADIUS, disc).into()];
+    }
+    let [least, most] = if is_preetham { preetham::TURBIDITY } else { hosek::TURBIDITY };
+    let known = turbidity.clamp(least, most);
+    if known != turbidity {
+        context.sink.push(
+            Diagnostic::warning(
+                codes::TURBIDITY,
+                node.span_of("turbidity"),
+                format!("the sky is that of turbidity {known}: the model knows {least} to {most}"),
+            )
+            .expected(format!("found {turbidity}")),
+        );
+    }
+    let elevation = towards.z.min(1.0).asin();
+    let (model, disc) = if is_preetham {
+        let sky = SkyModel::Preetham(Box::new(PreethamSky::new(elevation, known)));
+        (sky, preetham::sun(elevation, known))
+    } else {
+        (SkyModel::Hosek(Box::new(HosekSky::new(elevation, known))), hosek::sun(elevation, known))
+    };
+    vec![Sky::new(towards, model).into(), Sun::new(towards, sun::RADIUS, disc).into()]
 }
 
 fn env_map(node: &Node, context: &mut Context) -> Option<EnvMap> {
