@@ -9,7 +9,7 @@ use crate::store::TreeStore;
 use crate::traverse::{Kernel, NoSpecials, Portable, RawHit, Specials, View};
 use crate::trees::Trees;
 use crate::wide::Child;
-use indigo_math::{Bounds3, Float, Real, Transform, Vec3};
+use indigo_math::{Bounds3, Float, Real, Transform, Vec3, Vec3d};
 use std::marker::PhantomData;
 
 /// How to build an [`Accel`].
@@ -176,6 +176,23 @@ impl Accel {
     /// The meshes, by id.
     pub fn meshes(&self) -> &[TriangleMesh] {
         &self.meshes
+    }
+
+    /// A box round an object in render space; planes have no end.
+    pub fn object_bounds(&self, object: u32) -> Bounds3<f64> {
+        match &self.objects[object as usize] {
+            Object::Mesh { mesh, transform } => {
+                let points = self.meshes[*mesh as usize].positions();
+                Bounds3::of_points(points.iter().map(|p| transform.point(Vec3d::from(p.map(f64::from)))))
+            }
+            Object::Sphere { center, radius } => {
+                let r = Vec3d::splat(*radius);
+                Bounds3 { lo: *center - r, hi: *center + r }
+            }
+            Object::Plane { .. } => {
+                Bounds3 { lo: Vec3d::splat(f64::NEG_INFINITY), hi: Vec3d::splat(f64::INFINITY) }
+            }
+        }
     }
 
     /// Whether a mesh's objects are part of the baked tree.

@@ -30,6 +30,17 @@ impl Ray {
         self.o + self.d * t
     }
 
+    /// The rest of the ray behind a hit at `t`, clear of it by `clearance` metres.
+    ///
+    /// Origin and far end stay where they are and the ray on its line: an offset along the surface's normal
+    /// would shift it a little at every surface, and many of them would bend the way.
+    #[inline]
+    pub fn beyond(&self, t: Real, clearance: Real) -> Self {
+        let step = clearance / self.d.length();
+        // However short the step, `t` moves on, so that a walk through surfaces ends.
+        Self { t_min: (t + step).max(t.next_up()), ..*self }
+    }
+
     /// Whether the ray can hit anything at all.
     #[inline]
     pub(crate) fn is_sound(&self) -> bool {

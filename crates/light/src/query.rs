@@ -110,6 +110,12 @@ impl EmissionPdf {
 }
 
 impl Emission {
+    /// Number of the lamp; none for the environment.
+    #[inline]
+    pub fn lamp(&self) -> Option<u32> {
+        self.point.as_ref().map(|_| self.lamp)
+    }
+
     /// What a light path carries at first: radiance times cosine over both densities.
     #[inline]
     pub fn throughput(&self) -> SampledSpectrum {

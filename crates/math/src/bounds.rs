@@ -61,6 +61,11 @@ impl<T: Float> Bounds3<T> {
         d.x * d.y + d.y * d.z + d.z * d.x
     }
 
+    /// Whether two boxes have a point in common.
+    pub fn overlaps(&self, b: &Self) -> bool {
+        (0..3).all(|i| self.lo[i] <= b.hi[i] && b.lo[i] <= self.hi[i])
+    }
+
     /// Whether a point lies in the box or on its border.
     pub fn contains(&self, p: Vec3<T>) -> bool {
         (0..3).all(|i| self.lo[i] <= p[i] && p[i] <= self.hi[i])

@@ -6,14 +6,19 @@
 //! - [`ShadingPoint`]: the same at a point of a surface, with cosines and corrections for shading normals.
 
 mod directional_albedo;
+pub mod fresnel;
 pub mod materials;
 pub mod media;
+mod medium_stack;
 pub mod phase;
 mod reflectance;
 mod scatter;
 mod shading;
 
-pub use materials::{Interface, Leaf, Material, MaterialContext, MaterialResources};
+pub use materials::{Interface, Leaf, Material, MaterialContext, MaterialResources, SurfaceKind};
+pub use media::{Medium, MediumId};
+pub use medium_stack::MediumStack;
+pub use phase::Phase;
 pub use reflectance::Reflectance;
 pub use scatter::{Crossing, Delta, LocalSample, Scatter};
 pub use shading::{Evaluation, Mode, Scattered, ShadingPoint};

@@ -8,7 +8,7 @@
 
 mod common;
 
-use common::{Case, cases, examples};
+use common::{Case, all_examples, cases, examples};
 use indigo_math::{Real, Vec3};
 use indigo_scatter::{Mode, ShadingPoint};
 use indigo_spectrum::LANES;
@@ -47,7 +47,7 @@ fn assert_close(what: &str, a: Real, b: Real) {
 
 #[test]
 fn every_registered_kind_takes_part() {
-    let names: Vec<&str> = examples().iter().map(|e| e.kind).collect();
+    let names: Vec<&str> = all_examples().iter().map(|e| e.kind).collect();
     assert!(names.contains(&"diffuse"), "{names:?}");
     assert!(names.len() >= 10, "{names:?}");
 }
@@ -184,7 +184,7 @@ fn degenerate_directions_give_numbers() {
     ];
     let normals = [n, Vec3::new(0.6, 0.0, 0.8), Vec3::new(0.0, -1.0, 1e-6).normalized()];
     let corners: [[Real; 3]; 4] = [[0.0; 3], [0.999_999_94; 3], [0.5, 0.0, 0.999_999_94], [0.0, 0.5, 0.5]];
-    for example in examples() {
+    for example in all_examples() {
         let leaf = example.leaf(&common::wavelengths(0.5));
         for (wo, n_s) in directions.iter().flat_map(|d| normals.map(|n_s| (*d, n_s))) {
             let point = ShadingPoint::new(leaf, n, n_s, wo);

@@ -41,4 +41,6 @@ indigo_decl::codes! {
     PICTURE_SIZE = "E0310";
     /// A plane where light is traced from both ends.
     PLANE_BIDIRECTIONAL = "E0311";
+    /// More media than can be told apart.
+    TOO_MANY_MEDIA = "E0320";
 }

@@ -7,6 +7,7 @@
 pub mod codes;
 mod load;
 mod lower;
+mod probe;
 mod scene;
 pub mod schema;
 mod settings;

@@ -6,7 +6,7 @@ use indigo_geom::{Accel, SurfacePoint};
 use indigo_imaging::PictureSettings;
 use indigo_light::LightTable;
 use indigo_math::Real;
-use indigo_scatter::{Interface, Material, MaterialContext};
+use indigo_scatter::{Interface, Material, MaterialContext, Medium, MediumStack};
 use indigo_spectrum::SampledWavelengths;
 use indigo_texture::Texture;
 
@@ -25,8 +25,14 @@ pub struct Scene {
     pub(crate) first_slot: Vec<u32>,
     /// Material number of each slot of each object.
     pub(crate) slots: Vec<u32>,
-    /// Whether any surface in use is invisible, so that rays must look for them.
-    pub has_invisible_surfaces: bool,
+    /// All media, of which the first is air; none where no material has anything inside.
+    pub media: Vec<Medium>,
+    /// The media round the camera.
+    pub camera_media: MediumStack,
+    /// For each lamp the media round all of it, or `None` where they must be looked for.
+    pub(crate) lamp_media: Vec<Option<MediumStack>>,
+    /// Whether light may pass some surface as if it were not there, so that rays must look for them.
+    pub has_unseen_surfaces: bool,
     /// Floor under the distance by which rays start off a surface, metres.
     pub nudge_m: Real,
     /// How light is transported.

@@ -9,6 +9,7 @@ use indigo_diag::{Diagnostic, Sink};
 enum Use {
     Reflectance,
     Emission,
+    Coefficient,
 }
 
 /// A fraction of light: clamped to [0, 1], silently, as the manual says.
@@ -23,6 +24,16 @@ pub fn emission(node: &Node, sink: &mut Sink) -> Spectrum {
         refuse_negative(node, sink);
     }
     build(node, Use::Emission, sink).clamped(0.0, f64::INFINITY)
+}
+
+/// A coefficient of a medium (1/m): negative values count as 0.
+pub fn coefficient(node: &Node, sink: &mut Sink) -> Spectrum {
+    build(node, Use::Coefficient, sink).clamped(0.0, f64::INFINITY)
+}
+
+/// The mean cosine of a phase function: clamped to [-0.99, 0.99], silently, as the manual says.
+pub fn mean_cosine(node: &Node, sink: &mut Sink) -> Spectrum {
+    build(node, Use::Coefficient, sink).clamped(-0.99, 0.99)
 }
 
 fn refuse_negative(node: &Node, sink: &mut Sink) {
@@ -61,6 +72,7 @@ fn build(node: &Node, purpose: Use, sink: &mut Sink) -> Spectrum {
             match purpose {
                 Use::Reflectance => Spectrum::rgb_reflectance(rgb),
                 Use::Emission => Spectrum::rgb_emission(rgb),
+                Use::Coefficient => Spectrum::rgb_coefficient(rgb),
             }
         }
         _ => table(node, sink),

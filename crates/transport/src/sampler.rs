@@ -45,8 +45,8 @@ impl Block {
         Self::of(vertex, 2)
     }
 
-    /// Roulette at a vertex of the light's path, a choice of connections at one of the camera's path,
-    /// and two numbers that are free.
+    /// Roulette at a vertex of the light's path, a choice of connections at one of the camera's path, and the
+    /// distances at which the camera's path and the light's are scattered on the way to their vertices.
     pub const fn connect(vertex: u32) -> Self {
         Self::of(vertex, 3)
     }

@@ -22,7 +22,8 @@ use indigo_spectrum::{SampledSpectrum, SampledWavelengths};
 use indigo_testkit::rng::Rng;
 use indigo_testkit::stats::Moments;
 use indigo_transport::sampler::{Block, PrimarySample, SobolSample};
-use indigo_transport::technique::{Events, path};
+use indigo_transport::technique::Events;
+use indigo_transport::technique::path::PathTracer;
 
 /// Batches, and samples in each.
 const BATCHES: u64 = 24;
@@ -116,6 +117,7 @@ fn found(
 /// what is seen directly.
 fn measure(scene: &Scene) -> [Moments; 3] {
     let mut moments = [Moments::default(); 3];
+    let mut tracer = PathTracer::default();
     for batch in 0..BATCHES {
         let mut sums = [0.0; 3];
         for i in 0..SAMPLES {
@@ -131,7 +133,7 @@ fn measure(scene: &Scene) -> [Moments; 3] {
             }
             // The same path cut before it scatters holds what shines straight into the lens.
             let mut traced =
-                |depth| path::trace(scene, &mut sample, &lambda, &camera, Events::up_to(depth)).radiance;
+                |depth| tracer.trace(scene, &mut sample, &lambda, &camera, Events::up_to(depth)).radiance;
             sums[2] += luminance(&(traced(1) - traced(0)));
         }
         for (m, sum) in moments.iter_mut().zip(sums) {
@@ -211,12 +213,13 @@ fn the_path_tracer_weighs_through_invisible_surfaces() {
 /// Mean luminance of whole paths in low-discrepancy order.
 fn luminance_of_paths(scene: &Scene, seed: u64) -> f64 {
     let mut sum = 0.0;
+    let mut tracer = PathTracer::default();
     for i in 0..SAMPLES {
         let mut sample = SobolSample::new(seed, 0, i);
         let [x, y, u, _] = sample.block(Block::FILM);
         let lambda = SampledWavelengths::sample(u);
         let camera = scene.camera.ray(Vec2::new(x, y), Vec2::new(0.5, 0.5));
-        let found = path::trace(scene, &mut sample, &lambda, &camera, Events::up_to(100));
+        let found = tracer.trace(scene, &mut sample, &lambda, &camera, Events::up_to(100));
         sum += f64::from(Sensor::new(&lambda).xyz(&found.radiance)[1]);
     }
     sum / f64::from(SAMPLES)

@@ -32,7 +32,7 @@ pub(super) const ROW: usize = size_of::<[f32; 8]>();
 /// The row of a node's bounds that begins so many bytes in, a multiple of [`ROW`].
 #[inline(always)]
 pub(super) fn row_at(node: &Node, offset: usize) -> &[f32; 8] {
-    debug_assert!(offset < 6 * ROW && offset % ROW == 0);
+    debug_assert!(offset < 6 * ROW && offset.is_multiple_of(ROW));
     // SAFETY: callers pass ROW · (2·axis + side), so the row lies inside `bounds`. An index instead
     // of bytes would be multiplied anew for every node.
     unsafe { &*(&raw const node.bounds).byte_add(offset).cast::<[f32; 8]>() }

@@ -18,6 +18,7 @@ use indigo_scene::Scene;
 use indigo_testkit::sidak;
 use indigo_testkit::zgrid::{BlockGrid, ZGrid};
 use modes::{MODES, Mode};
+use std::fmt::Write;
 
 /// Probability of any false alarm in the whole grid.
 const FAMILY: f64 = 1e-4;
@@ -85,8 +86,9 @@ fn agree(name: &str, mut scene: Scene) {
             let result = test.compare(expected, grid).expect("grids of one shape");
             if !result.passed() {
                 let tests = "cargo test -p indigo-render --test agreement";
-                faults += &format!(
-                    "{name}, {} against {}, {channel}: {result}\nagain: {tests} {name}; seeds from {} on\n",
+                let _ = writeln!(
+                    faults,
+                    "{name}, {} against {}, {channel}: {result}\nagain: {tests} {name}; seeds from {} on",
                     mode.name, MODES[0].name, mode.seed
                 );
             }

@@ -57,7 +57,7 @@ fn view() -> String {
     flat_camera([0.0, -3.6, 0.0], [0.0, 1.0, 0.0], 0.42)
 }
 
-fn build(parts: Vec<Vec<String>>) -> Scene {
+fn build(parts: &[Vec<String>]) -> Scene {
     scene(&scene_file(&parts.concat()))
 }
 
@@ -66,7 +66,7 @@ fn common(camera: String) -> Vec<String> {
 }
 
 pub fn diffuse_box() -> Scene {
-    build(vec![common(view()), room(["white"; 4]), block("grey"), lamp(0.3, 1e5)])
+    build(&[common(view()), room(["white"; 4]), block("grey"), lamp(0.3, 1e5)])
 }
 
 /// Behind the camera: seen directly, it would be all that Metropolis sampling knows of.
@@ -75,7 +75,7 @@ pub fn small_light() -> Scene {
         wall([0.0, 1.0, 0.0], 4.5, 0.01).text("lamp", "black"),
         mesh_light("lamp", &uniform(1e9), [0.0; 3], 1.0, ""),
     ];
-    build(vec![common(view()), room(["white"; 4]), block("white"), lamp])
+    build(&[common(view()), room(["white"; 4]), block("white"), lamp])
 }
 
 /// Lamps of very different size and power, some hidden, one with its back to the room.
@@ -89,15 +89,15 @@ pub fn many_lights() -> Scene {
         lamps.push(wall(towards, 0.9, size).text(&name, "white"));
         lamps.push(mesh_light(&name, &uniform(2e5 / f64::from(i + 1)), pos, 1.0, ""));
     }
-    build(vec![common(view()), room(["white"; 4]), block("grey"), lamps])
+    build(&[common(view()), room(["white"; 4]), block("grey"), lamps])
 }
 
 pub fn environment_only() -> Scene {
-    build(vec![common(view()), room(["white"; 4]), block("white"), vec![background(&uniform(1e4))]])
+    build(&[common(view()), room(["white"; 4]), block("white"), vec![background(&uniform(1e4))]])
 }
 
 pub fn environment_and_lamp() -> Scene {
-    build(vec![
+    build(&[
         common(view()),
         room(["white"; 4]),
         block("white"),
@@ -111,7 +111,7 @@ pub fn thin_lens_out_of_focus() -> Scene {
     let lens = camera([0.0, -3.6, 0.0], [0.0, 1.0, 0.0], 0.42, "")
         .replace("<aperture_radius>1e-5</aperture_radius>", "<aperture_radius>0.4</aperture_radius>")
         .replace("<focus_distance>1</focus_distance>", "<focus_distance>2.5</focus_distance>");
-    build(vec![common(lens), room(["white"; 4]), block("grey"), lamp(0.3, 1e5)])
+    build(&[common(lens), room(["white"; 4]), block("grey"), lamp(0.3, 1e5)])
 }
 
 /// Vertex normals of a coarse ball lean far from its triangles' own.
@@ -129,7 +129,7 @@ pub fn smoothed_normals() -> Scene {
         assert_ne!(text, smooth);
         vec![smooth, model(name)]
     };
-    build(vec![
+    build(&[
         common(view()),
         room(["white"; 4]),
         ball([-0.4, 0.2, -0.5], 0.45, "ball"),
@@ -141,7 +141,7 @@ pub fn smoothed_normals() -> Scene {
 pub fn coloured_walls_and_lamps() -> Scene {
     let rgb = |c: &str| format!("<rgb><rgb>{c}</rgb><gamma>1</gamma></rgb>");
     let narrow = "<peak><peak_min>580</peak_min><peak_width>20</peak_width><base_value>1e3</base_value><peak_value>2e6</peak_value></peak>";
-    build(vec![
+    build(&[
         common(view()),
         vec![diffuse("red", &rgb("0.8 0.05 0.05")), diffuse("green", &rgb("0.05 0.6 0.1"))],
         vec![diffuse("blue", &rgb("0.05 0.1 0.7"))],
@@ -158,7 +158,7 @@ pub fn coloured_walls_and_lamps() -> Scene {
 
 /// Surfaces that do nothing, before the lamp, the camera and the walls.
 pub fn invisible_surfaces() -> Scene {
-    build(vec![
+    build(&[
         common(view()),
         vec![null("nothing")],
         room(["white"; 4]),

@@ -51,6 +51,48 @@ pub fn null(name: &str) -> String {
     format!("<material><name>{name}</name><null_material/></material>")
 }
 
+/// A medium of a kind.
+pub fn medium(name: &str, precedence: u32, kind: &str) -> String {
+    format!("<medium><name>{name}</name><precedence>{precedence}</precedence>{kind}</medium>")
+}
+
+/// The content of a `basic` medium without dispersion; `scattering` may hold its `subsurface_scattering`.
+pub fn basic(ior: f64, absorption: &str, scattering: &str) -> String {
+    format!(
+        "<basic><ior>{ior}</ior><absorption_coefficient_spectrum>{absorption}</absorption_coefficient_spectrum>\
+         {scattering}</basic>"
+    )
+}
+
+/// `subsurface_scattering` of a coefficient and a kind of phase function.
+pub fn scattering(coefficient: &str, phase: &str) -> String {
+    format!(
+        "<subsurface_scattering><scattering_coefficient_spectrum>{coefficient}</scattering_coefficient_spectrum>\
+         <phase_function>{phase}</phase_function></subsurface_scattering>"
+    )
+}
+
+/// The phase function of Henyey and Greenstein.
+pub fn henyey_greenstein(g: f64) -> String {
+    format!("<henyey_greenstein><g_spectrum>{}</g_spectrum></henyey_greenstein>", uniform(g))
+}
+
+/// The smooth surface of a medium.
+pub fn specular(name: &str, medium: &str) -> String {
+    format!(
+        "<material><name>{name}</name><specular><transparent>true</transparent>\
+         <internal_medium_name>{medium}</internal_medium_name></specular></material>"
+    )
+}
+
+/// A sphere of a material.
+pub fn sphere(center: [f64; 3], radius: f64, material: &str) -> String {
+    let [x, y, z] = center;
+    format!(
+        "<sphere><center>{x} {y} {z}</center><radius>{radius}</radius><material_name>{material}</material_name></sphere>"
+    )
+}
+
 /// Light from everywhere.
 pub fn background(spectrum: &str) -> String {
     format!("<background><spectrum>{spectrum}</spectrum></background>")

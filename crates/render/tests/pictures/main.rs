@@ -10,4 +10,5 @@ mod colour;
 mod direct_light;
 mod exposure;
 mod furnace;
+mod media;
 mod surfaces;

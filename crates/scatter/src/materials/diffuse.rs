@@ -1,7 +1,7 @@
 //! `diffuse`: a Lambertian surface.
 
 use super::fields::{ALBEDO_SPECTRUM, ALBEDO_TEXTURE, BUMP_MAP, COLOUR_DEPRECATED, LATER};
-use super::{MaterialContext, MaterialResources};
+use super::{MaterialContext, MaterialResources, SurfaceKind};
 use crate::reflectance::Reflectance;
 use crate::scatter::{Crossing, LocalSample, Scatter};
 use indigo_decl::{Block, Field, Group, Kind, Node, Presence};
@@ -67,6 +67,8 @@ impl Diffuse {
         DiffuseLeaf { f: self.albedo.eval(context, uv) * INV_PI }
     }
 }
+
+impl SurfaceKind for Diffuse {}
 
 /// Constant BSDF, for directions on one side of the surface.
 #[derive(Clone, Copy, Debug)]

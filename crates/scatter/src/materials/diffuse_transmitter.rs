@@ -1,7 +1,7 @@
 //! `diffuse_transmitter`: a thin sheet that scatters all light to its other side.
 
 use super::fields::{ALBEDO_TEXTURE, COLOUR_DEPRECATED, LATER};
-use super::{MaterialContext, MaterialResources};
+use super::{MaterialContext, MaterialResources, SurfaceKind};
 use crate::reflectance::Reflectance;
 use crate::scatter::{Crossing, LocalSample, Scatter};
 use indigo_decl::{Block, Field, Group, Kind, Node, Presence};
@@ -69,6 +69,8 @@ impl DiffuseTransmitter {
         DiffuseTransmitterLeaf { f: self.albedo.eval(context, uv) * INV_PI }
     }
 }
+
+impl SurfaceKind for DiffuseTransmitter {}
 
 /// Constant BSDF, for directions on different sides of the surface.
 #[derive(Clone, Copy, Debug)]

@@ -10,6 +10,7 @@ pub mod oren_nayar;
 pub mod phong;
 pub mod specular;
 
+use crate::media::MediumId;
 use crate::scatter::{Crossing, LocalSample, Scatter};
 use indigo_decl::{Alternatives, Block, Field, Kind, Later, Node, Presence};
 use indigo_diag::Sink;
@@ -44,21 +45,50 @@ pub struct Interface {
 impl Interface {
     /// Air, or nothing, on both sides.
     pub const NONE: Self = Self { above: SampledSpectrum::ONE, below: SampledSpectrum::ONE };
+
+    /// Whether the indices are equal, so that a smooth surface is not to be seen.
+    #[inline]
+    pub fn is_matched(&self) -> bool {
+        self.above == self.below
+    }
 }
 
 /// What the building of a material needs of the scene.
 pub trait MaterialResources {
     /// The image map that a texture element asks for; whatever is wrong with it has been reported.
     fn texture(&mut self, node: &Node) -> TextureId;
+    /// The medium that a field names; whatever is wrong with it has been reported.
+    fn medium(&mut self, node: &Node, field: &str) -> MediumId;
     /// Where to report what is wrong.
     fn sink(&mut self) -> &mut Sink;
 }
 
+/// What a material says of the surface itself, beside how it scatters. The defaults are those of most.
+pub trait SurfaceKind {
+    /// The medium that fills the inside of the object, if the material is the interface of one. It is the
+    /// same all over the surface and whatever becomes of the light that crosses it.
+    fn internal_medium(&self) -> Option<MediumId> {
+        None
+    }
+
+    /// Whether light can ever pass as if nothing were there: there is no leaf, or the surface divides a
+    /// medium from itself.
+    fn may_be_unseen(&self) -> bool {
+        self.internal_medium().is_some()
+    }
+
+    /// The share of light that passes as if nothing were there: the mean over `choice` of the cases in
+    /// which there is no leaf.
+    fn unseen_share(&self, _context: &MaterialContext, _uv: &impl Fn(u32) -> Vec2) -> Real {
+        0.0
+    }
+}
+
 /// Makes the enums of materials and of their leaves, and everything that goes through all of them.
 ///
-/// A line `name => Material / Leaf` registers a material of the file `name.rs`: `Material` has
-/// `build(&Node, &mut dyn MaterialResources)` and `leaf(&MaterialContext, uv)`, `Leaf` is a
-/// [`Scatter`]. `declared` lists the elements that are read but that nothing renders yet.
+/// A line `name => Material / Leaf` registers a material of the file `name.rs`: `Material` is a
+/// [`SurfaceKind`] and has `build(&Node, &mut dyn MaterialResources)` and `leaf(&MaterialContext, uv)`, which
+/// gives a leaf or, where it may pass light unseen, an option of one; `Leaf` is a [`Scatter`]. `declared` lists the elements that are read but that nothing renders yet.
 macro_rules! registry {
     ($($name:ident => $material:ident / $leaf:ident,)* ; declared $($only:ident,)*) => {
         /// The kinds of material.
@@ -97,7 +127,36 @@ macro_rules! registry {
             pub fn leaf(&self, context: &MaterialContext, uv: impl Fn(u32) -> Vec2) -> Option<Leaf> {
                 match self {
                     Self::Null => None,
-                    $(Self::$material(m) => Some(Leaf::$material(m.leaf(context, uv))),)*
+                    $(Self::$material(m) => {
+                        let leaf: Option<$name::$leaf> = m.leaf(context, uv).into();
+                        leaf.map(Leaf::$material)
+                    })*
+                }
+            }
+
+            /// See [`SurfaceKind::internal_medium`].
+            #[inline]
+            pub fn internal_medium(&self) -> Option<MediumId> {
+                match self {
+                    Self::Null => None,
+                    $(Self::$material(m) => m.internal_medium(),)*
+                }
+            }
+
+            /// See [`SurfaceKind::may_be_unseen`].
+            pub fn may_be_unseen(&self) -> bool {
+                match self {
+                    Self::Null => true,
+                    $(Self::$material(m) => m.may_be_unseen(),)*
+                }
+            }
+
+            /// See [`SurfaceKind::unseen_share`].
+            #[inline]
+            pub fn unseen_share(&self, context: &MaterialContext, uv: impl Fn(u32) -> Vec2) -> Real {
+                match self {
+                    Self::Null => 1.0,
+                    $(Self::$material(m) => m.unseen_share(context, &uv),)*
                 }
             }
         }
@@ -143,10 +202,10 @@ macro_rules! registry {
 
 registry! {
     diffuse => Diffuse / DiffuseLeaf,
-    diffuse_transmitter => DiffuseTransmitter / DiffuseTransmitterLeaf,
     oren_nayar => OrenNayar / OrenNayarLeaf,
+    diffuse_transmitter => DiffuseTransmitter / DiffuseTransmitterLeaf,
+    specular => Specular / SpecularLeaf,
     ; declared
-    specular,
     phong,
     glossy_transparent,
     blend,

@@ -18,7 +18,7 @@
 //! | 1, 1 | 0.089 | 0.220 | 0.299 | 0.242 |
 
 use super::fields::{ALBEDO_SPECTRUM, ALBEDO_TEXTURE, BUMP_MAP, LATER};
-use super::{MaterialContext, MaterialResources};
+use super::{MaterialContext, MaterialResources, SurfaceKind};
 use crate::directional_albedo::{AlbedoRow, integral};
 use crate::reflectance::Reflectance;
 use crate::scatter::{Crossing, LocalSample, Scatter};
@@ -157,6 +157,8 @@ impl Facets {
         2.0 * std::f64::consts::TAU * (quarter([0.0, 0.25]) + quarter([0.25, 0.5]))
     }
 }
+
+impl SurfaceKind for OrenNayar {}
 
 /// Facets of one albedo.
 ///

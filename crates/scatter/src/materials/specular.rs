@@ -1,7 +1,17 @@
 //! `specular`: a perfectly smooth surface of a dielectric.
+//!
+//! All events are of delta kind. Reflection goes the same way at every wavelength, but with a probability
+//! of its own at each. A refracted ray stands for the hero and for the lanes that have its index: the others
+//! would have gone another way, so their density is 0 (Wilkie et al. 2014, section 4).
 
 use super::fields::{BUMP_MAP, INTERNAL_MEDIUM_NAME, LATER};
-use indigo_decl::{Block, Field, Kind, Presence};
+use super::{MaterialContext, MaterialResources, SurfaceKind};
+use crate::fresnel::dielectric;
+use crate::media::MediumId;
+use crate::scatter::{Crossing, Delta, LocalSample, Scatter};
+use indigo_decl::{Block, Field, Kind, Node, Presence};
+use indigo_math::{Real, Vec2, Vec3};
+use indigo_spectrum::{LanePdf, SampledSpectrum};
 
 /// The declaration of `specular`.
 pub static BLOCK: Block = Block::new(
@@ -26,3 +36,104 @@ pub static BLOCK: Block = Block::new(
     <internal_medium_name>glass</internal_medium_name>
 </specular>",
 );
+
+/// A smooth interface between its medium and another.
+#[derive(Clone, Debug)]
+pub struct Specular {
+    medium: MediumId,
+    is_transparent: bool,
+}
+
+impl Specular {
+    /// From its element. `bump_map` is left unread.
+    pub fn build(node: &Node, resources: &mut dyn MaterialResources) -> Self {
+        Self {
+            medium: resources.medium(node, INTERNAL_MEDIUM_NAME.name),
+            is_transparent: node.bool("transparent"),
+        }
+    }
+
+    /// The model at a point; `None` where the indices on both sides are equal, so that light passes
+    /// as if nothing were there.
+    #[inline]
+    pub fn leaf(&self, context: &MaterialContext, _uv: impl Fn(u32) -> Vec2) -> Option<SpecularLeaf> {
+        let eta = context.interface.below / context.interface.above;
+        let is_unseen = self.is_transparent && context.interface.is_matched();
+        (!is_unseen).then_some(SpecularLeaf { eta, is_transparent: self.is_transparent })
+    }
+}
+
+impl SurfaceKind for Specular {
+    fn internal_medium(&self) -> Option<MediumId> {
+        Some(self.medium)
+    }
+
+    fn unseen_share(&self, context: &MaterialContext, _uv: &impl Fn(u32) -> Vec2) -> Real {
+        if self.is_transparent && context.interface.is_matched() { 1.0 } else { 0.0 }
+    }
+}
+
+/// Reflection and refraction at an interface.
+#[derive(Clone, Copy, Debug)]
+pub struct SpecularLeaf {
+    /// The index below over that above.
+    eta: SampledSpectrum,
+    is_transparent: bool,
+}
+
+impl SpecularLeaf {
+    #[inline]
+    fn reflected(&self, wo: Vec3, reflectance: SampledSpectrum) -> LocalSample {
+        let probability = if self.is_transparent { LanePdf(reflectance.0) } else { LanePdf::ONE };
+        let delta = Delta { factor: reflectance, probability, reverse: probability };
+        LocalSample::delta(Vec3::new(-wo.x, -wo.y, wo.z), Crossing::Reflect, delta)
+    }
+
+    #[inline]
+    fn refracted(&self, wo: Vec3, reflectance: SampledSpectrum, cos_transmitted: Real) -> LocalSample {
+        let hero = self.eta.hero();
+        let transmittance =
+            SampledSpectrum::from_fn(
+                |lane| {
+                    if self.eta[lane] == hero { 1.0 - reflectance[lane] } else { 0.0 }
+                },
+            );
+        let probability = LanePdf(transmittance.0);
+        let wi = Vec3::new(-wo.x / hero, -wo.y / hero, -cos_transmitted).normalized();
+        // Fresnel's equations are the same from both sides.
+        let delta = Delta { factor: transmittance / hero, probability, reverse: probability };
+        LocalSample::delta(wi, Crossing::Down, delta)
+    }
+}
+
+impl Scatter for SpecularLeaf {
+    #[inline]
+    fn f(&self, _wo: Vec3, _wi: Vec3, _crossing: Crossing) -> SampledSpectrum {
+        SampledSpectrum::ZERO
+    }
+
+    #[inline]
+    fn pdf(&self, _wo: Vec3, _wi: Vec3, _crossing: Crossing) -> LanePdf {
+        LanePdf::ZERO
+    }
+
+    #[inline]
+    fn sample(&self, wo: Vec3, u: [Real; 3]) -> Option<LocalSample> {
+        let reflectance = self.eta.map(|eta| dielectric(wo.z, eta).reflectance);
+        let hero = dielectric(wo.z, self.eta.hero());
+        if self.is_transparent && u[2] >= hero.reflectance {
+            return Some(self.refracted(wo, reflectance, hero.cos_transmitted));
+        }
+        Some(self.reflected(wo, reflectance))
+    }
+
+    #[inline]
+    fn eta(&self) -> SampledSpectrum {
+        self.eta
+    }
+
+    #[inline]
+    fn is_connectable(&self) -> bool {
+        false
+    }
+}

@@ -1,8 +1,11 @@
 //! `basic`: a medium of given coefficients.
 
-use crate::phase::PHASE_FUNCTION;
-use indigo_decl::{Block, Field, Kind, Later, Presence, Range};
+use super::{Cauchy, Medium};
+use crate::phase::{PHASE_FUNCTION, PhaseFunction};
+use indigo_decl::{Block, Field, Kind, Later, Node, Presence, Range};
+use indigo_diag::Sink;
 use indigo_spectrum::declare::SPECTRUM;
+use indigo_spectrum::read;
 
 /// The declaration of `basic`.
 pub static BLOCK: Block = Block::new(
@@ -82,3 +85,19 @@ pub static SUBSURFACE_SCATTERING: Block = Block::new(
     <phase_function><uniform/></phase_function>
 </subsurface_scattering>",
 );
+
+/// From its element.
+pub fn build(node: &Node, sink: &mut Sink) -> Medium {
+    let mut medium = Medium::clear(Cauchy { a: node.real("ior"), b: node.real("cauchy_b_coeff") });
+    if let Some(absorption) = node.node("absorption_coefficient_spectrum") {
+        medium.absorption = read::coefficient(absorption, sink);
+    }
+    let Some(scatters) = node.node("subsurface_scattering") else { return medium };
+    if let Some(scattering) = scatters.node("scattering_coefficient_spectrum") {
+        medium.scattering = read::coefficient(scattering, sink);
+    }
+    if let Some(phase) = scatters.node("phase_function").and_then(|p| PhaseFunction::build(p, sink)) {
+        medium.phase = phase;
+    }
+    medium
+}

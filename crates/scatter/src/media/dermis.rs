@@ -1,6 +1,8 @@
 //! `dermis`: the inner layer of skin.
 
-use indigo_decl::{Block, Field, Kind, Presence, Range};
+use super::{Medium, skin};
+use indigo_decl::{Block, Field, Kind, Node, Presence, Range};
+use indigo_diag::Sink;
 
 /// The declaration of `dermis`.
 pub static BLOCK: Block = Block::new(
@@ -15,3 +17,13 @@ pub static BLOCK: Block = Block::new(
     .range(Range::Within(0.0, 1.0))],
 )
 .with_example("<dermis><hemoglobin_fraction>0.01</hemoglobin_fraction></dermis>");
+
+/// From its element.
+pub fn build(node: &Node, _sink: &mut Sink) -> Medium {
+    medium(node.real("hemoglobin_fraction"))
+}
+
+/// Tissue with a share of blood; it scatters half as much as the outer layer.
+pub(super) fn medium(blood: f64) -> Medium {
+    skin::layer(|nm, i| blood * skin::blood(i) + (1.0 - blood) * skin::baseline(nm), 0.5)
+}

@@ -1,6 +1,8 @@
 //! `epidermis`: the outer layer of skin.
 
-use indigo_decl::{Block, Field, Kind, Presence, Range};
+use super::{Medium, skin};
+use indigo_decl::{Block, Field, Kind, Node, Presence, Range};
+use indigo_diag::Sink;
 
 /// The declaration of `epidermis`.
 pub static BLOCK: Block = Block::new(
@@ -29,3 +31,13 @@ pub static BLOCK: Block = Block::new(
     <melanin_type_blend>0.5</melanin_type_blend>
 </epidermis>",
 );
+
+/// From its element.
+pub fn build(node: &Node, _sink: &mut Sink) -> Medium {
+    medium(node.real("melanin_fraction"), node.real("melanin_type_blend"))
+}
+
+/// Tissue with a share of melanin, of which a share is eumelanin.
+pub(super) fn medium(melanin: f64, eumelanin: f64) -> Medium {
+    skin::layer(|nm, _| melanin * skin::melanin(nm, eumelanin) + (1.0 - melanin) * skin::baseline(nm), 1.0)
+}

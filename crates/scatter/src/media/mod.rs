@@ -1,13 +1,146 @@
 //! Media: what fills the inside of objects. One file each, and one line each in the list below.
+//!
+//! Every kind of medium comes down to an index of refraction, two coefficients and a phase function, so a
+//! kind is a way to make a [`Medium`] from its element.
 
 pub mod basic;
 pub mod dermis;
 pub mod epidermis;
+mod skin;
 
-use indigo_decl::{Alternatives, Block, Field, Kind, Later, Presence, Range};
+use crate::phase::{Lobe, PhaseFunction, uniform};
+use indigo_decl::{Alternatives, Block, Field, Kind, Later, Node, Presence, Range};
+use indigo_diag::Sink;
+use indigo_math::{Float, Real};
+use indigo_spectrum::{SampledSpectrum, SampledWavelengths, Spectrum};
 
-/// The kinds of medium.
-pub static KINDS: &[&Block] = &[&basic::BLOCK, &epidermis::BLOCK, &dermis::BLOCK];
+/// Names a medium of a scene.
+///
+/// Numbers are in the order of precedence, and in that of definition where precedences are equal: of
+/// several media at one place, the one of the largest number is there.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct MediumId(u16);
+
+impl MediumId {
+    /// What is everywhere by itself.
+    pub const AIR: Self = Self(0);
+
+    /// Number `i`, from 1 on for the media of the scene; `None` where there are too many.
+    pub fn new(i: usize) -> Option<Self> {
+        u16::try_from(i).ok().map(Self)
+    }
+
+    /// Its place in a list of all media, of which air is the first.
+    #[inline]
+    pub fn index(self) -> usize {
+        usize::from(self.0)
+    }
+}
+
+/// The index of refraction by Cauchy's equation n = A + B/λ².
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cauchy {
+    /// A.
+    pub a: f64,
+    /// B, µm².
+    pub b: f64,
+}
+
+impl Cauchy {
+    /// The same index at every wavelength.
+    pub const fn constant(ior: f64) -> Self {
+        Self { a: ior, b: 0.0 }
+    }
+
+    /// The indices at some wavelengths.
+    #[inline]
+    pub fn eval(&self, lambda: &SampledWavelengths) -> SampledSpectrum {
+        let a = Real::from_f64(self.a);
+        if self.b == 0.0 {
+            return SampledSpectrum::splat(a);
+        }
+        // 1 µm² is 10^6 nm².
+        let b = Real::from_f64(self.b * 1e6);
+        SampledSpectrum(lambda.lambda.map(|l| a + b / (l * l)))
+    }
+}
+
+/// A medium as a scene holds it.
+#[derive(Clone, Debug)]
+pub struct Medium {
+    /// The index of refraction.
+    pub ior: Cauchy,
+    /// Absorption coefficient, 1/m.
+    pub absorption: Spectrum,
+    /// Scattering coefficient, 1/m.
+    pub scattering: Spectrum,
+    /// Where scattered light goes.
+    pub phase: PhaseFunction,
+}
+
+/// A medium as a path holds it: all numbers baked for its wavelengths.
+#[derive(Clone, Copy, Debug)]
+pub struct Coefficients {
+    /// Indices of refraction.
+    pub eta: SampledSpectrum,
+    /// Absorption, 1/m.
+    pub absorption: SampledSpectrum,
+    /// Scattering, 1/m.
+    pub scattering: SampledSpectrum,
+    /// Where scattered light goes.
+    pub phase: Lobe,
+}
+
+impl Medium {
+    /// What is everywhere by itself: it does nothing to light.
+    pub const AIR: Self = Self::clear(Cauchy::constant(1.0));
+
+    /// A medium that only refracts.
+    pub const fn clear(ior: Cauchy) -> Self {
+        Self {
+            ior,
+            absorption: Spectrum::BLACK,
+            scattering: Spectrum::BLACK,
+            phase: PhaseFunction::Uniform(uniform::Uniform),
+        }
+    }
+
+    /// The medium at some wavelengths.
+    #[inline]
+    pub fn at(&self, lambda: &SampledWavelengths) -> Coefficients {
+        Coefficients {
+            eta: self.ior.eval(lambda),
+            absorption: self.absorption.eval(lambda),
+            scattering: self.scattering.eval(lambda),
+            phase: self.phase.at(lambda),
+        }
+    }
+}
+
+/// Makes the list of kinds, and the function that goes through all of them. A line `name` registers a
+/// kind of the file `name.rs`, which has a `BLOCK` and `build(&Node, &mut Sink) -> Medium`.
+macro_rules! registry {
+    ($($name:ident,)*) => {
+        /// The kinds of medium.
+        pub static KINDS: &[&Block] = &[$(&$name::BLOCK,)*];
+
+        impl Medium {
+            /// From the element of a kind of medium; `None` where it is of no known kind.
+            pub fn build(node: &Node, sink: &mut Sink) -> Option<Self> {
+                $(if std::ptr::eq(node.block, &raw const $name::BLOCK) {
+                    return Some($name::build(node, sink));
+                })*
+                None
+            }
+        }
+    };
+}
+
+registry! {
+    basic,
+    epidermis,
+    dermis,
+}
 
 /// The declaration of `medium`.
 pub static MEDIUM: Block = Block::new(

@@ -5,8 +5,10 @@ use indigo_diag::{Sink, SourceMap};
 use indigo_igs::{Limits, read_document};
 use indigo_math::{Real, Vec2, Vec3};
 use indigo_scatter::materials::{KINDS, MATERIAL};
-use indigo_scatter::{Interface, Leaf, Material, MaterialContext, MaterialResources, ShadingPoint};
-use indigo_spectrum::SampledWavelengths;
+use indigo_scatter::{
+    Interface, Leaf, Material, MaterialContext, MaterialResources, MediumId, Scatter, ShadingPoint,
+};
+use indigo_spectrum::{SampledSpectrum, SampledWavelengths};
 use indigo_texture::TextureId;
 use std::fmt;
 
@@ -23,6 +25,9 @@ const EXAMPLES: &[&str] = &[
     "<oren_nayar><sigma>1</sigma><albedo_spectrum><uniform><value>1</value></uniform></albedo_spectrum></oren_nayar>",
     "<oren_nayar><sigma>0.6</sigma><albedo_spectrum><rgb><rgb>0.9 0.5 0.1</rgb></rgb></albedo_spectrum></oren_nayar>",
 ];
+
+/// Air above, glass below.
+const INTERFACE: Interface = Interface { above: SampledSpectrum::ONE, below: SampledSpectrum::splat(1.5) };
 
 /// Angles between the view and the geometric normal, in degrees.
 const ANGLES: [f64; 4] = [0.0, 30.0, 60.0, 85.0];
@@ -42,13 +47,8 @@ pub struct Example {
 impl Example {
     /// The model at some wavelengths.
     pub fn leaf(&self, lambda: &SampledWavelengths) -> Leaf {
-        let context = MaterialContext {
-            textures: &[],
-            materials: &[],
-            lambda,
-            interface: Interface::NONE,
-            choice: 0.5,
-        };
+        let context =
+            MaterialContext { textures: &[], materials: &[], lambda, interface: INTERFACE, choice: 0.5 };
         self.material.leaf(&context, |_| Vec2::new(0.3, 0.6)).expect("a material that does something")
     }
 }
@@ -123,8 +123,14 @@ pub fn cases() -> Vec<Case> {
     cases
 }
 
-/// All models that are rendered: of each kind the declaration's example, and then [`EXAMPLES`].
+/// The models of which directions can be asked: those that are not of delta kind alone.
 pub fn examples() -> Vec<Example> {
+    let lambda = wavelengths(0.4);
+    all_examples().into_iter().filter(|e| e.leaf(&lambda).is_connectable()).collect()
+}
+
+/// All models that are rendered: of each kind the declaration's example, and then [`EXAMPLES`].
+pub fn all_examples() -> Vec<Example> {
     let declared = KINDS.iter().map(|block| block.example);
     declared.chain(EXAMPLES.iter().copied()).filter_map(example).collect()
 }
@@ -156,6 +162,10 @@ struct Plain(Sink);
 impl MaterialResources for Plain {
     fn texture(&mut self, node: &Node) -> TextureId {
         panic!("the examples have no textures, but {} asks for one", node.block.name)
+    }
+
+    fn medium(&mut self, _node: &Node, _field: &str) -> MediumId {
+        MediumId::new(1).expect("a small number")
     }
 
     fn sink(&mut self) -> &mut Sink {

@@ -1,12 +1,13 @@
 //! Materials by name, built when they are first used with a mesh's texture coordinates.
 
 use super::Context;
+use super::media::MediumTable;
 use super::names::Names;
 use crate::codes;
 use indigo_decl::Node;
 use indigo_diag::{Diagnostic, Sink, Span};
 use indigo_formats::image;
-use indigo_scatter::{Material, MaterialResources};
+use indigo_scatter::{Material, MaterialResources, Medium, MediumId};
 use indigo_texture::{Curve, Texture, TextureId};
 use std::collections::{HashMap, HashSet};
 
@@ -24,6 +25,7 @@ pub(super) struct MaterialTable<'a> {
     names: Names<'a>,
     materials: Vec<Material>,
     textures: TextureTable,
+    media: MediumTable<'a>,
     /// Materials built, by name and by the uv sets that their textures found.
     built: HashMap<(String, Vec<u32>), u32>,
     /// Names that anything in the scene uses.
@@ -39,6 +41,7 @@ impl<'a> MaterialTable<'a> {
             names: Names::new(root, "material", sink),
             materials: vec![],
             textures: TextureTable::default(),
+            media: MediumTable::new(root, sink),
             built: HashMap::new(),
             asked_for: HashSet::new(),
             plain: HashMap::new(),
@@ -83,8 +86,15 @@ impl<'a> MaterialTable<'a> {
         context: &mut Context,
     ) -> Option<u32> {
         let kind = node.alternative()?;
-        let mut resources =
-            Resources { textures: &mut self.textures, context, uv, user, sets: vec![], uses_textures: false };
+        let mut resources = Resources {
+            textures: &mut self.textures,
+            media: &mut self.media,
+            context,
+            uv,
+            user,
+            sets: vec![],
+            uses_textures: false,
+        };
         let material = Material::build(kind, &mut resources)?;
         let (sets, uses_textures) = (resources.sets, resources.uses_textures);
         if uses_textures && let Some(&id) = self.built.get(&(name.to_owned(), sets.clone())) {
@@ -100,15 +110,17 @@ impl<'a> MaterialTable<'a> {
         Some(id)
     }
 
-    /// Materials that nothing is made of have no effect, whatever they hold.
+    /// Materials that nothing is made of, and media that none of them names, have no effect, whatever
+    /// they hold.
     pub(super) fn disregard_unused(&self) {
         let asked_for = |n: &&Node| self.asked_for.contains(&n.text("name").value);
         self.names.nodes().filter(|n| !asked_for(n)).for_each(Node::disregard);
+        self.media.disregard_unused();
     }
 
-    /// Materials and textures in the order of their numbers.
-    pub(super) fn into_arenas(self) -> (Vec<Material>, Vec<Texture>) {
-        (self.materials, self.textures.textures)
+    /// Materials, textures and media in the order of their numbers.
+    pub(super) fn into_arenas(self) -> (Vec<Material>, Vec<Texture>, Vec<Medium>) {
+        (self.materials, self.textures.textures, self.media.into_arena())
     }
 }
 
@@ -121,8 +133,9 @@ struct TextureTable {
 }
 
 /// What building a material may ask for.
-struct Resources<'t, 'c, 'd, 'u> {
+struct Resources<'t, 'm, 'c, 'd, 'u> {
     textures: &'t mut TextureTable,
+    media: &'t mut MediumTable<'m>,
     context: &'c mut Context<'d>,
     uv: UvSets<'u>,
     /// Who uses the material, for errors about missing uv sets.
@@ -132,7 +145,7 @@ struct Resources<'t, 'c, 'd, 'u> {
     uses_textures: bool,
 }
 
-impl MaterialResources for Resources<'_, '_, '_, '_> {
+impl MaterialResources for Resources<'_, '_, '_, '_, '_> {
     fn texture(&mut self, node: &Node) -> TextureId {
         self.uses_textures = true;
         let set = self.uv_set(node);
@@ -148,12 +161,17 @@ impl MaterialResources for Resources<'_, '_, '_, '_> {
         self.textures.on_set(first, set)
     }
 
+    fn medium(&mut self, node: &Node, field: &str) -> MediumId {
+        let name = node.text(field);
+        self.media.get(&name.value, name.span, self.context.sink)
+    }
+
     fn sink(&mut self) -> &mut Sink {
         self.context.sink
     }
 }
 
-impl Resources<'_, '_, '_, '_> {
+impl Resources<'_, '_, '_, '_, '_> {
     fn uv_set(&mut self, node: &Node) -> u32 {
         let name = node.text("uv_set");
         let UvSets::Named(sets) = self.uv else { return 0 };

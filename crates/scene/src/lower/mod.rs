@@ -9,6 +9,7 @@ mod environment;
 mod geometry;
 mod lights;
 mod materials;
+mod media;
 mod meshes;
 mod names;
 mod picture;
@@ -23,6 +24,7 @@ use indigo_decl::{Node, report_unread};
 use indigo_diag::{Diagnostic, Severity, Sink, SourceMap, Span};
 use indigo_geom::{Accel, BuildOptions};
 use indigo_math::Vec3d;
+use indigo_scatter::MediumStack;
 use materials::MaterialTable;
 use meshes::MeshTable;
 use std::sync::Arc;
@@ -93,8 +95,6 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
     lights.add_rectangles(root, &mut geometry, &mut meshes, &mut materials, context.sink);
     meshes.disregard_unused();
     materials.disregard_unused();
-    // Media matter only to materials, each of which is an error as long as none of them is rendered.
-    root.nodes("medium").for_each(Node::disregard);
 
     let picture = picture::picture(root, camera_node.zip(camera.as_ref()), settings, context.sink);
     let threshold = usize::try_from(settings.int("bih_tri_threshold").value).unwrap_or(usize::MAX);
@@ -124,14 +124,18 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
     };
     let camera = camera::focus(camera?, &accel).into_camera()?;
     let lights = lights.into_table(&geometry, &accel);
+    let lamps: Vec<Option<u32>> = geometry.lights().collect();
     let (first_slot, slots) = geometry.into_slots();
-    let (materials, textures) = materials.into_arenas();
-    Some(Scene {
-        has_invisible_surfaces: slots.iter().any(|&m| materials[m as usize].is_invisible()),
+    let (materials, textures, media) = materials.into_arenas();
+    let mut scene = Scene {
+        has_unseen_surfaces: slots.iter().any(|&m| materials[m as usize].may_be_unseen()),
         accel,
         lights,
         camera,
         textures,
+        media,
+        camera_media: MediumStack::AIR,
+        lamp_media: vec![],
         materials,
         first_slot,
         slots,
@@ -140,7 +144,9 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
         film: film?,
         picture: picture?,
         output,
-    })
+    };
+    scene.find_starting_media(&lamps);
+    Some(scene)
 }
 
 fn find_camera<'a>(root: &'a Node, sink: &mut Sink) -> Option<&'a Node> {

@@ -6,10 +6,11 @@
 //! a proposal first asks for one is a draw from just that distribution.
 
 use crate::sampler::{Block, PrimarySample};
-use indigo_math::{Real, rng};
+use indigo_math::{Real, elementary, rng};
 
-/// The largest step of a small mutation over the smallest (Kelemen et al. 2002, section 3.3: 1/64 and 1/1024).
-const STEPS: Real = 16.0;
+/// ln 16: the largest step of a small mutation is 16 times the smallest (Kelemen et al. 2002, section 3.3: 1/64
+/// and 1/1024).
+const LN_STEPS: Real = 4.0 * std::f64::consts::LN_2 as Real;
 
 /// How proposals are made.
 #[derive(Clone, Copy, Debug)]
@@ -113,7 +114,7 @@ fn random4(key: u64, counter: u64) -> [Real; 4] {
 #[inline]
 fn perturbed(old: Real, u: Real, max_change: Real) -> Real {
     let (sign, u) = if u < 0.5 { (-1.0, 2.0 * u) } else { (1.0, 2.0 * u - 1.0) };
-    let moved = old + sign * max_change * (-(STEPS.ln() * u)).exp();
+    let moved = old + sign * max_change * elementary::exp(-LN_STEPS * u);
     let wrapped = moved - moved.floor();
     if wrapped < 1.0 { wrapped } else { 0.0 }
 }

@@ -11,16 +11,19 @@
 //! The lens is no surface that light could meet by chance, so there is no t = 0. What shines straight
 //! into the lens is left to (0, 2). Weights are those of [`mis`](super::mis).
 
+use super::flight::{Arrival, Flight};
+use super::media::{MediaMemory, World};
 use super::mis::{Prefix, Step, Weight};
-use super::surface::{emitter_hit, shade};
-use super::visibility::{Point, continue_beyond, is_lit, is_unblocked, spawn};
+use super::surface::{Surface, emitter_hit, shade};
+use super::vertex::Vertex;
+use super::visibility::{Point, way, way_to_light};
 use super::{Events, PathSample, Record, Splat};
 use crate::sampler::{Block, PrimarySample};
 use indigo_camera::CameraRay;
-use indigo_geom::{Ray, SurfacePoint};
-use indigo_light::Receiver;
+use indigo_geom::Ray;
+use indigo_light::{Emission, Receiver};
 use indigo_math::Real;
-use indigo_scatter::{Mode, Scattered, ShadingPoint};
+use indigo_scatter::{MediumStack, Mode, Scattered};
 use indigo_scene::Scene;
 use indigo_spectrum::{LanePdf, SampledSpectrum, SampledWavelengths};
 
@@ -33,6 +36,13 @@ const JOINTS: usize = 16;
 /// Bidirectional path tracing, with the memory that it needs.
 #[derive(Clone, Debug)]
 pub struct Bidirectional {
+    media: MediaMemory,
+    light_path: LightPath,
+}
+
+/// What a sample's light path left behind.
+#[derive(Clone, Debug)]
+struct LightPath {
     vertices: Vec<LightVertex>,
     splats: Vec<Splat>,
     /// Density of film positions, over that of the film as a whole.
@@ -42,8 +52,7 @@ pub struct Bidirectional {
 /// A vertex of the light's path from its second one on.
 #[derive(Clone, Copy, Debug)]
 struct LightVertex {
-    at: SurfacePoint,
-    shading: ShadingPoint,
+    vertex: Vertex,
     /// Light that arrives, over the hero's density.
     beta: SampledSpectrum,
     prefix: Prefix,
@@ -51,16 +60,14 @@ struct LightVertex {
 
 /// What does not change along a sample.
 struct Sample<'a> {
-    scene: &'a Scene,
-    lambda: &'a SampledWavelengths,
+    world: World<'a>,
     camera: &'a CameraRay,
     events: Events,
 }
 
 /// A vertex of the camera's path.
 struct CameraVertex<'a> {
-    at: &'a SurfacePoint,
-    shading: &'a ShadingPoint,
+    vertex: &'a Vertex,
     beta: SampledSpectrum,
     prefix: &'a Prefix,
     /// Scattering events before this vertex.
@@ -70,12 +77,13 @@ struct CameraVertex<'a> {
 impl Bidirectional {
     /// For a film of which the part `rendered` (1: all of it) gets camera paths.
     pub fn new(rendered: Real) -> Self {
-        Self { vertices: vec![], splats: vec![], film_density: 1.0 / rendered }
+        let light_path = LightPath { vertices: vec![], splats: vec![], film_density: 1.0 / rendered };
+        Self { media: MediaMemory::default(), light_path }
     }
 
     /// What the last sample put elsewhere on the film than where its camera ray came from.
     pub fn splats(&self) -> &[Splat] {
-        &self.splats
+        &self.light_path.splats
     }
 
     /// Traces the paths of a sample.
@@ -88,18 +96,21 @@ impl Bidirectional {
         events: Events,
         record: &mut impl Record,
     ) -> PathSample {
-        let sample = Sample { scene, lambda, camera, events };
+        let sample = Sample { world: self.media.world(scene, lambda), camera, events };
+        self.light_path.trace(&sample, numbers, record);
+        self.light_path.trace_camera(&sample, numbers, record)
+    }
+}
+
+impl LightPath {
+    fn trace(&mut self, sample: &Sample, numbers: &mut impl PrimarySample, record: &mut impl Record) {
         self.vertices.clear();
         self.splats.clear();
-        self.trace_light(&sample, numbers, record);
-        self.trace_camera(&sample, numbers, record)
-    }
-
-    fn trace_light(&mut self, sample: &Sample, numbers: &mut impl PrimarySample, record: &mut impl Record) {
-        let scene = sample.scene;
+        let world = &sample.world;
+        let scene = world.scene;
         let [u0, u1, u2, _] = numbers.block(Block::EMISSION);
         let [_, _, v0, v1] = numbers.block(Block::LENS);
-        let Some(emission) = scene.lights.sample_emission([u0, u1, u2], [v0, v1], sample.lambda) else {
+        let Some(emission) = scene.lights.sample_emission([u0, u1, u2], [v0, v1], world.lambda) else {
             return;
         };
         let mut beta = emission.throughput();
@@ -110,37 +121,52 @@ impl Bidirectional {
         let cos = emission.point.map_or(1.0, |p| emission.direction.dot(p.n));
         let mut step = Step::from_light(emission.pdf.first, emission.pdf.second, cos);
         let mut from = emission.origin;
-        let mut ray = match &emission.point {
-            Some(point) => Point::of_light(point).spawn(scene, emission.direction),
-            None => Ray::new(emission.origin, emission.direction),
-        };
-        let (mut events, mut vertex) = (0, 0);
-        while let Some(hit) = scene.accel.intersect(&ray) {
-            let at = scene.accel.surface(&ray, &hit);
-            let [w0, w1, w2, choice] = numbers.block(Block::light_scatter(vertex));
-            let Some(shading) = shade(scene, &at, -ray.d, sample.lambda, choice) else {
-                ray = continue_beyond(scene, &ray, &hit, &at);
-                vertex += 1;
-                continue;
+        let mut flight = leave_lamp(world, &emission);
+        let (mut events, mut number) = (0, 0);
+        loop {
+            let arrival = flight.advance(world, || numbers.block(Block::connect(number))[3]);
+            let wo = -flight.ray.d;
+            let (vertex, u) = match &arrival {
+                Arrival::Environment => return,
+                Arrival::Medium(p) => {
+                    let u = numbers.block(Block::light_scatter(number));
+                    (Vertex::in_medium(world, *p, wo, flight.media), u)
+                }
+                Arrival::Surface(at) => {
+                    let u = numbers.block(Block::light_scatter(number));
+                    match shade(world, at, wo, &flight.media, u[3]) {
+                        Surface::Scatters(vertex) => (vertex, u),
+                        Surface::Unseen(media) => {
+                            flight.pass(world, at, media);
+                            number += 1;
+                            continue;
+                        }
+                    }
+                }
             };
+            let (reach, free) = (vertex.reach(wo), flight.passage.free);
             // Along the surface: such a vertex has no density.
-            let cos = ray.d.dot(at.n_g).abs();
-            if cos == 0.0 {
+            if reach.hero() == 0.0 {
                 return;
             }
             events += 1;
             let is_first = events == 1;
+            let p = vertex.point.p;
             let mut prefix = if is_first && emission.point.is_none() {
-                step.arrive_from_environment(cos)
+                step.arrive_from_environment(reach, free)
             } else {
-                step.arrive((at.p - from).length2(), cos)
+                step.arrive((p - from).length2(), reach, free)
             };
             if is_first {
-                let drawn = scene.lights.pdf_sample_of(&emission, &Receiver::facing(at.p, shading.n_g()));
+                let drawn = scene.lights.pdf_sample_of(&emission, &vertex.receiver());
                 prefix.before *= drawn / emission.pdf.first;
             }
-            let light = LightVertex { at, shading, beta, prefix };
-            if shading.is_connectable() {
+            beta *= flight.passage.weight();
+            if let Some(collision) = vertex.collision() {
+                beta = beta.times(collision);
+            }
+            let light = LightVertex { vertex, beta, prefix };
+            if vertex.is_connectable() {
                 self.splat(sample, &light, events, record);
             }
             if events >= sample.events.most {
@@ -148,22 +174,22 @@ impl Bidirectional {
             }
             self.vertices.push(light);
             if events >= ROULETTE_FROM {
-                let [u, ..] = numbers.block(Block::connect(vertex));
+                let [u, ..] = numbers.block(Block::connect(number));
                 let chance = (beta.max_lane() / (prefix.ratio.mean() * initial)).min(1.0);
                 if u >= chance {
                     return;
                 }
                 beta *= 1.0 / chance;
             }
-            let Some(next) = shading.sample([w0, w1, w2], Mode::Importance) else { return };
+            let Some(next) = vertex.sample([u[0], u[1], u[2]], Mode::Importance) else { return };
             beta *= next.weight;
             if beta.is_black() {
                 return;
             }
-            step = go_on(&prefix, &next, &at);
-            from = at.p;
-            ray = spawn(scene, &at, next.wi);
-            vertex += 1;
+            step = go_on(&prefix, &next, &vertex);
+            from = p;
+            flight = vertex.leave(world, next.wi);
+            number += 1;
         }
     }
 
@@ -172,8 +198,9 @@ impl Bidirectional {
         if !sample.events.holds(events) {
             return;
         }
-        let Sample { scene, camera, .. } = sample;
-        let to_lens = camera.origin - light.at.p;
+        let Sample { world, camera, .. } = sample;
+        let scene = world.scene;
+        let to_lens = camera.origin - light.vertex.point.p;
         let distance2 = to_lens.length2();
         if distance2 == 0.0 {
             return;
@@ -186,21 +213,19 @@ impl Bidirectional {
         if !(position.x >= 0.0 && position.x <= 1.0 && position.y >= 0.0 && position.y <= 1.0) {
             return;
         }
-        let scattered = light.shading.eval(wi, Mode::Importance);
+        let scattered = light.vertex.eval(wi, Mode::Importance);
         if scattered.f_cos.is_black() {
             return;
         }
+        let Some(passage) = way(world, &light.vertex, wi, &Point::free(camera.origin)) else { return };
         let pdf = scene.camera.pdf_direction(-wi);
-        let cos = wi.dot(light.at.n_g).abs();
-        let found = LanePdf::splat(pdf * self.film_density * cos / distance2);
+        let found = light.vertex.reach(wi) * passage.free * (pdf * self.film_density / distance2);
         let others = light.prefix.others(found, scattered.pdf_rev);
         let weight = Weight::joint(light.prefix.ratio, others, camera.ratio, LanePdf::ZERO);
-        let value = light.beta.times(camera.ratio) * scattered.f_cos * (film.importance * pdf / distance2);
-        if is_unblocked(scene, &Point::of_surface(&light.at), &Point::free(camera.origin)) {
-            let unweighted = value / weight.mean_ratio;
-            record.contribution((events + 1, 1), Some(position), unweighted, weight.weight);
-            self.splats.push(Splat { position, radiance: value * weight.factor() });
-        }
+        let arrived = light.beta.times(camera.ratio) * passage.transmittance;
+        let value = arrived * scattered.f_cos * (film.importance * pdf / distance2);
+        record.contribution((events + 1, 1), Some(position), value / weight.mean_ratio, weight.weight);
+        self.splats.push(Splat { position, radiance: value * weight.factor() });
     }
 
     fn trace_camera(
@@ -209,117 +234,100 @@ impl Bidirectional {
         numbers: &mut impl PrimarySample,
         record: &mut impl Record,
     ) -> PathSample {
-        let Sample { scene, lambda, camera, events } = sample;
+        let Sample { world, camera, events } = sample;
+        let scene = world.scene;
         let mut radiance = SampledSpectrum::ZERO;
         let mut beta = SampledSpectrum::splat(camera.importance).times(camera.ratio);
         let pdf = scene.camera.pdf_direction(camera.direction) * self.film_density;
         let mut step = Step::from_camera(pdf, camera.ratio);
         let mut from = Receiver::all_round(camera.origin);
-        let mut ray = Ray::new(camera.origin, camera.direction);
-        let (mut alpha, mut depth, mut vertex) = (0.0, 0, 0);
+        let ray = Ray::new(camera.origin, camera.direction);
+        let mut flight = Flight::new(ray.o, ray, scene.camera_media);
+        let (mut alpha, mut depth, mut number) = (0.0, 0, 0);
+        // By what roulette divides the throughput, so that it sees losses alone.
+        let mut expected = camera.importance;
         loop {
-            let Some(hit) = scene.accel.intersect(&ray) else {
-                if let Some(light) = scene.lights.environment(ray.d, lambda).filter(|_| events.holds(depth)) {
-                    let prefix = step.arrive_at_environment();
-                    let drawn = scene.lights.pdf_environment(&from, ray.d);
-                    let pdf = scene.lights.pdf_emission_environment(ray.d, from.p);
-                    radiance += found(&prefix, beta * light, depth, [drawn, pdf.first, pdf.second], record);
+            let arrival = flight.advance(world, || numbers.block(Block::connect(number))[2]);
+            let wo = -flight.ray.d;
+            let free = flight.passage.free;
+            let arrived = beta * flight.passage.weight();
+            let (vertex, u) = match &arrival {
+                Arrival::Environment => {
+                    let light = scene.lights.environment(-wo, world.lambda).filter(|_| events.holds(depth));
+                    if let Some(light) = light {
+                        let prefix = step.arrive_at_environment(free);
+                        let drawn = scene.lights.pdf_environment(&from, -wo);
+                        let pdf = scene.lights.pdf_emission_environment(-wo, from.p);
+                        let densities = [drawn, pdf.first, pdf.second];
+                        radiance += found(&prefix, arrived * light, depth, densities, record);
+                    }
+                    break;
                 }
-                break;
-            };
-            let at = scene.accel.surface(&ray, &hit);
-            let wo = -ray.d;
-            let cos = wo.dot(at.n_g);
-            if cos == 0.0 {
-                break;
-            }
-            let distance2 = (at.p - from.p).length2();
-            let prefix = step.arrive(distance2, cos.abs());
-            let emitter = emitter_hit(&at);
-            if events.holds(depth)
-                && let Some(light) = scene.lights.emitted(&emitter, wo, lambda)
-            {
-                let drawn = scene.lights.pdf_object(&emitter, &from) * cos / distance2;
-                let pdf = scene.lights.pdf_emission_object(&emitter, wo);
-                radiance += found(&prefix, beta * light, depth, [drawn, pdf.first, pdf.second], record);
-            }
-            let [u0, u1, u2, choice] = numbers.block(Block::scatter(vertex));
-            let Some(shading) = shade(scene, &at, wo, lambda, choice) else {
-                ray = continue_beyond(scene, &ray, &hit, &at);
-                vertex += 1;
-                continue;
+                Arrival::Medium(p) => {
+                    (Vertex::in_medium(world, *p, wo, flight.media), numbers.block(Block::scatter(number)))
+                }
+                Arrival::Surface(at) => {
+                    let cos = wo.dot(at.n_g);
+                    if cos == 0.0 {
+                        break;
+                    }
+                    let emitter = emitter_hit(at);
+                    if events.holds(depth)
+                        && let Some(light) = scene.lights.emitted(&emitter, wo, world.lambda)
+                    {
+                        let distance2 = (at.p - from.p).length2();
+                        let prefix = step.arrive(distance2, LanePdf::splat(cos), free);
+                        let drawn = scene.lights.pdf_object(&emitter, &from) * cos / distance2;
+                        let pdf = scene.lights.pdf_emission_object(&emitter, wo);
+                        let densities = [drawn, pdf.first, pdf.second];
+                        radiance += found(&prefix, arrived * light, depth, densities, record);
+                    }
+                    let u = numbers.block(Block::scatter(number));
+                    match shade(world, at, wo, &flight.media, u[3]) {
+                        Surface::Scatters(vertex) => (vertex, u),
+                        Surface::Unseen(media) => {
+                            flight.pass(world, at, media);
+                            number += 1;
+                            continue;
+                        }
+                    }
+                }
             };
             alpha = 1.0;
             if depth == events.most {
                 break;
             }
-            let u = numbers.block(Block::light(vertex));
-            if shading.is_connectable() {
-                let end = CameraVertex { at: &at, shading: &shading, beta, prefix: &prefix, depth };
-                radiance += Self::draw_light(sample, &end, u, record);
-                radiance += self.join(sample, &end, vertex, numbers, record);
+            let prefix = step.arrive((vertex.point.p - from.p).length2(), vertex.reach(wo), free);
+            beta = arrived;
+            if let Some(collision) = vertex.collision() {
+                beta = beta.times(collision);
+            }
+            let lights = numbers.block(Block::light(number));
+            if vertex.is_connectable() {
+                let end = CameraVertex { vertex: &vertex, beta, prefix: &prefix, depth };
+                radiance += draw_light(sample, &end, lights, record);
+                radiance += self.join(sample, &end, number, numbers, record);
             }
             if depth >= ROULETTE_FROM {
-                let chance = (beta.max_lane() / (prefix.ratio.mean() * camera.importance)).min(1.0);
-                if u[3] >= chance {
+                let chance = (beta.max_lane() / (prefix.ratio.mean() * expected)).min(1.0);
+                if lights[3] >= chance {
                     break;
                 }
                 beta *= 1.0 / chance;
             }
-            let Some(next) = shading.sample([u0, u1, u2], Mode::Radiance) else { break };
+            let Some(next) = vertex.sample([u[0], u[1], u[2]], Mode::Radiance) else { break };
             beta *= next.weight;
             if beta.is_black() {
                 break;
             }
-            step = go_on(&prefix, &next, &at);
-            from = Receiver::facing(at.p, shading.n_g());
-            ray = spawn(scene, &at, next.wi);
+            step = go_on(&prefix, &next, &vertex);
+            from = vertex.receiver();
+            expected /= vertex.compression(world, next.wi);
+            flight = vertex.leave(world, next.wi);
             depth += 1;
-            vertex += 1;
+            number += 1;
         }
         PathSample { radiance, alpha }
-    }
-
-    /// Strategy (1, t): draws light towards a vertex of the camera's path.
-    fn draw_light(
-        sample: &Sample,
-        end: &CameraVertex,
-        u: [Real; 4],
-        record: &mut impl Record,
-    ) -> SampledSpectrum {
-        let Sample { scene, lambda, events, .. } = sample;
-        if !events.holds(end.depth + 1) {
-            return SampledSpectrum::ZERO;
-        }
-        let to = Receiver::facing(end.at.p, end.shading.n_g());
-        let Some(light) = scene.lights.sample(&to, [u[0], u[1], u[2]], lambda) else {
-            return SampledSpectrum::ZERO;
-        };
-        let response = end.shading.eval(light.wi, Mode::Radiance);
-        let value = end.beta * response.f_cos * light.radiance / light.pdf;
-        if value.is_black() || !is_lit(scene, end.at, &light) {
-            return SampledSpectrum::ZERO;
-        }
-        let cos = light.wi.dot(end.at.n_g).abs();
-        // Densities of the light's own point or direction, and of this vertex seen from there.
-        let (drawn, reach) = match &light.point {
-            Some(to) => {
-                let distance2 = (to.p - end.at.p).length2();
-                (light.pdf * -light.wi.dot(to.n) / distance2, cos / distance2)
-            }
-            None => (light.pdf, cos),
-        };
-        let found = LanePdf::splat(light.pdf_emission.second * reach);
-        let others_camera = end.prefix.others(found, response.pdf_rev);
-        let weight = Weight::drawn_light(
-            end.prefix.ratio,
-            response.pdf / light.pdf,
-            others_camera,
-            light.pdf_emission.first / drawn,
-        );
-        let unweighted = value / weight.mean_ratio;
-        record.contribution((1, end.depth + 2), None, unweighted, weight.weight);
-        value * weight.factor()
     }
 
     /// Strategies (s, t) with s and t of at least 2: joins a vertex of the camera's path to those of
@@ -328,7 +336,7 @@ impl Bidirectional {
         &self,
         sample: &Sample,
         end: &CameraVertex,
-        vertex: u32,
+        number: u32,
         numbers: &mut impl PrimarySample,
         record: &mut impl Record,
     ) -> SampledSpectrum {
@@ -336,7 +344,7 @@ impl Bidirectional {
         let first = if stride == 1 {
             0
         } else {
-            let [_, u, ..] = numbers.block(Block::connect(vertex));
+            let [_, u, ..] = numbers.block(Block::connect(number));
             ((u * stride as Real) as usize).min(stride - 1)
         };
         let mut sum = SampledSpectrum::ZERO;
@@ -345,12 +353,65 @@ impl Bidirectional {
             if events > sample.events.most {
                 break;
             }
-            if sample.events.holds(events) && light.shading.is_connectable() {
+            if sample.events.holds(events) && light.vertex.is_connectable() {
                 sum += join_pair(sample, end, light, i as u32 + 2, record);
             }
         }
         sum * stride as Real
     }
+}
+
+/// The way of light that leaves a lamp or enters the scene from its environment, where there is air.
+fn leave_lamp(world: &World, emission: &Emission) -> Flight {
+    let (Some(point), Some(lamp)) = (&emission.point, emission.lamp()) else {
+        let ray = Ray::new(emission.origin, emission.direction);
+        return Flight::new(ray.o, ray, MediumStack::AIR);
+    };
+    let ray = Point::of_light(point).spawn(world.scene, emission.direction);
+    Flight::new(point.p, ray, world.scene.media_at_lamp(lamp, ray.o, ray.d))
+}
+
+/// Strategy (1, t): draws light towards a vertex of the camera's path.
+fn draw_light(
+    sample: &Sample,
+    end: &CameraVertex,
+    u: [Real; 4],
+    record: &mut impl Record,
+) -> SampledSpectrum {
+    let Sample { world, events, .. } = sample;
+    let lights = &world.scene.lights;
+    if !events.holds(end.depth + 1) {
+        return SampledSpectrum::ZERO;
+    }
+    let p = end.vertex.point.p;
+    let Some(light) = lights.sample(&end.vertex.receiver(), [u[0], u[1], u[2]], world.lambda) else {
+        return SampledSpectrum::ZERO;
+    };
+    let response = end.vertex.eval(light.wi, Mode::Radiance);
+    let value = end.beta * response.f_cos * light.radiance / light.pdf;
+    if value.is_black() {
+        return SampledSpectrum::ZERO;
+    }
+    let Some(passage) = way_to_light(world, end.vertex, &light) else { return SampledSpectrum::ZERO };
+    let value = value * passage.transmittance;
+    let reach = end.vertex.reach(light.wi) * passage.free;
+    // Densities of the light's own point or direction, and of this vertex seen from there.
+    let (drawn, reach) = match &light.point {
+        Some(to) => {
+            let distance2 = (to.p - p).length2();
+            (light.pdf * -light.wi.dot(to.n) / distance2, reach / distance2)
+        }
+        None => (light.pdf, reach),
+    };
+    let others_camera = end.prefix.others(reach * light.pdf_emission.second, response.pdf_rev);
+    let weight = Weight::drawn_light(
+        end.prefix.ratio,
+        response.pdf * passage.free / light.pdf,
+        others_camera,
+        light.pdf_emission.first / drawn,
+    );
+    record.contribution((1, end.depth + 2), None, value / weight.mean_ratio, weight.weight);
+    value * weight.factor()
 }
 
 fn join_pair(
@@ -360,27 +421,28 @@ fn join_pair(
     s: u32,
     record: &mut impl Record,
 ) -> SampledSpectrum {
-    let to_light = light.at.p - end.at.p;
+    let to_light = light.vertex.point.p - end.vertex.point.p;
     let distance2 = to_light.length2();
     if distance2 == 0.0 {
         return SampledSpectrum::ZERO;
     }
     let wi = to_light / distance2.sqrt();
-    let here = end.shading.eval(wi, Mode::Radiance);
+    let here = end.vertex.eval(wi, Mode::Radiance);
     if here.f_cos.is_black() {
         return SampledSpectrum::ZERO;
     }
-    let there = light.shading.eval(-wi, Mode::Importance);
+    let there = light.vertex.eval(-wi, Mode::Importance);
     let value = end.beta * light.beta * here.f_cos * there.f_cos / distance2;
     if value.is_black() {
         return SampledSpectrum::ZERO;
     }
-    if !is_unblocked(sample.scene, &Point::of_surface(end.at), &Point::of_surface(&light.at)) {
+    let Some(passage) = way(&sample.world, end.vertex, wi, &light.vertex.point) else {
         return SampledSpectrum::ZERO;
-    }
-    let (cos_here, cos_there) = (wi.dot(end.at.n_g).abs(), wi.dot(light.at.n_g).abs());
-    let others_light = light.prefix.others(here.pdf * (cos_there / distance2), there.pdf_rev);
-    let others_camera = end.prefix.others(there.pdf * (cos_here / distance2), here.pdf_rev);
+    };
+    let value = value * passage.transmittance;
+    let free = passage.free / distance2;
+    let others_light = light.prefix.others(here.pdf * light.vertex.reach(wi) * free, there.pdf_rev);
+    let others_camera = end.prefix.others(there.pdf * end.vertex.reach(wi) * free, here.pdf_rev);
     let weight = Weight::joint(light.prefix.ratio, others_light, end.prefix.ratio, others_camera);
     record.contribution((s, end.depth + 2), None, value / weight.mean_ratio, weight.weight);
     value * weight.factor()
@@ -405,6 +467,6 @@ fn found(
 }
 
 #[inline]
-fn go_on(prefix: &Prefix, next: &Scattered, at: &SurfacePoint) -> Step {
-    prefix.step(next, next.wi.dot(at.n_g).abs())
+fn go_on(prefix: &Prefix, next: &Scattered, vertex: &Vertex) -> Step {
+    prefix.step(next, vertex.reach(next.wi))
 }

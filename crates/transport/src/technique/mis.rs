@@ -21,6 +21,11 @@
 //! would end there count nothing. The probability that stands for the delta's density is the
 //! same from both sides of the quotient wherever both are divided, so it cancels as the delta does.
 //! Roulette is left out of all densities, for every strategy alike.
+//!
+//! What turns a density in solid angle, over squared distance, into that of a vertex is its *reach*: a
+//! cosine on a surface (density over area), and in a medium the scattering coefficient (density over
+//! volume). Both are multiplied by the probability with which the path gets there unscattered, the same in
+//! both directions. These depend on the wavelength.
 
 use indigo_math::Real;
 use indigo_scatter::Scattered;
@@ -62,7 +67,8 @@ pub(super) struct Step {
     before: LanePdf,
     pdf: Real,
     others: LanePdf,
-    cos: Real,
+    /// Of the vertex that it leaves; 0 for the lens, which nothing finds.
+    reach: LanePdf,
     is_connectable: bool,
 }
 
@@ -72,7 +78,7 @@ impl Step {
     /// same way; `ratio` is its density in each lane, over the hero's.
     #[inline]
     pub fn from_camera(pdf: Real, ratio: LanePdf) -> Self {
-        Self { ratio, before: ratio, pdf, others: LanePdf::ZERO, cos: 0.0, is_connectable: true }
+        Self { ratio, before: ratio, pdf, others: LanePdf::ZERO, reach: LanePdf::ZERO, is_connectable: true }
     }
 
     /// From a lamp or the environment, whose first density is `first` and second `second`
@@ -85,45 +91,47 @@ impl Step {
             before: LanePdf::ONE,
             pdf: second,
             others: LanePdf::splat(m1(1.0 / first)),
-            cos,
+            reach: LanePdf::splat(cos),
             is_connectable: true,
         }
     }
 
-    /// The next vertex at squared distance `distance2`, met under `cos` to its geometric normal.
+    /// The next vertex at squared distance `distance2`, which has a `reach` towards this one, and is got to
+    /// unscattered with the probabilities `free`.
     #[inline]
-    pub fn arrive(&self, distance2: Real, cos: Real) -> Prefix {
-        self.prefix(distance2 / (self.pdf * cos), self.cos / distance2)
+    pub fn arrive(&self, distance2: Real, reach: LanePdf, free: LanePdf) -> Prefix {
+        self.prefix(reach * free / distance2, self.reach * free / distance2)
     }
 
     /// The next vertex is a direction of the environment.
     #[inline]
-    pub fn arrive_at_environment(&self) -> Prefix {
-        self.prefix(1.0 / self.pdf, self.cos)
+    pub fn arrive_at_environment(&self, free: LanePdf) -> Prefix {
+        self.prefix(free, self.reach * free)
     }
 
-    /// The next vertex is met under `cos` by light of the environment.
+    /// The next vertex is met by light of the environment.
     #[inline]
-    pub fn arrive_from_environment(&self, cos: Real) -> Prefix {
-        self.prefix(1.0 / (self.pdf * cos), 1.0)
+    pub fn arrive_from_environment(&self, reach: LanePdf, free: LanePdf) -> Prefix {
+        self.prefix(reach * free, free)
     }
 
+    /// Factors of the densities with which the next vertex is found from here, and this one from there.
     #[inline]
-    fn prefix(&self, inverse_pdf: Real, back: Real) -> Prefix {
+    fn prefix(&self, there: LanePdf, back: LanePdf) -> Prefix {
         Prefix {
-            ratio: self.ratio,
+            ratio: self.ratio * there.ratio_to_hero(),
             before: self.before,
-            inverse_pdf,
-            others: self.others * m1(back),
+            inverse_pdf: 1.0 / (self.pdf * there.hero()),
+            others: self.others * m(back),
             is_previous_connectable: self.is_connectable,
         }
     }
 }
 
 impl Prefix {
-    /// Goes on from the vertex by a drawn direction, under `cos` to the vertex's geometric normal.
+    /// Goes on from the vertex, which has a `reach` towards it, by a drawn direction.
     #[inline]
-    pub fn step(&self, drawn: &Scattered, cos: Real) -> Step {
+    pub fn step(&self, drawn: &Scattered, reach: LanePdf) -> Step {
         let is_connectable = !drawn.is_delta;
         let mut others = m(drawn.pdf_rev) * self.others;
         if is_connectable && self.is_previous_connectable {
@@ -134,7 +142,7 @@ impl Prefix {
             before: self.ratio,
             pdf: drawn.pdf.hero(),
             others: others * m1(self.inverse_pdf),
-            cos,
+            reach,
             is_connectable,
         }
     }

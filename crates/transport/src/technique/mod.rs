@@ -1,10 +1,13 @@
 //! Techniques: from a primary sample to light.
 
 pub mod bidirectional;
+mod flight;
+mod media;
 mod mis;
 pub mod path;
 mod surface;
 mod tracer;
+mod vertex;
 mod visibility;
 
 pub use tracer::{Found, Tracer};

@@ -7,15 +7,18 @@
 //! hero's; a lane's estimate is `beta / mean(ratio)` (Wilkie et al. 2014, equation 12). Weights
 //! between strategies use densities averaged over the lanes.
 
-use super::surface::{emitter_hit, shade};
-use super::visibility::{continue_beyond, is_lit, spawn};
+use super::flight::{Arrival, Flight};
+use super::media::{MediaMemory, Passage, World};
+use super::surface::{Surface, emitter_hit, shade};
+use super::vertex::Vertex;
+use super::visibility::way_to_light;
 use super::{Events, PathSample};
 use crate::sampler::{Block, PrimarySample};
 use indigo_camera::CameraRay;
 use indigo_geom::{Ray, SurfacePoint};
 use indigo_light::Receiver;
 use indigo_math::{Real, Vec3};
-use indigo_scatter::{Mode, ShadingPoint};
+use indigo_scatter::Mode;
 use indigo_scene::Scene;
 use indigo_spectrum::{LanePdf, SampledSpectrum, SampledWavelengths};
 
@@ -27,6 +30,8 @@ struct Path {
     beta: SampledSpectrum,
     ratio: LanePdf,
     radiance: SampledSpectrum,
+    /// By what refraction has divided the radiance that is carried.
+    compression: Real,
     /// How the last direction was drawn; none for the camera's own.
     last: Option<LastScatter>,
 }
@@ -42,11 +47,11 @@ struct LastScatter {
 }
 
 impl LastScatter {
-    /// Weight of having found a light by scattering, where `pdf_light` is the density (1/sr) of
-    /// having drawn it.
+    /// Weight of having found a light by scattering and a passage, where `pdf_light` is the density
+    /// (1/sr) of having drawn it.
     #[inline]
-    fn weight(&self, pdf_light: Real) -> Real {
-        power_heuristic(self.pdf.mean(), self.prefix * pdf_light)
+    fn weight(&self, passage: &Passage, pdf_light: Real) -> Real {
+        power_heuristic((self.pdf * passage.free).mean(), self.prefix * pdf_light)
     }
 }
 
@@ -69,28 +74,52 @@ impl Path {
     /// From the camera, whose direction has a density for each wavelength of its own: `ratio`, over
     /// the hero's.
     fn new(ratio: LanePdf) -> Self {
-        Self { beta: SampledSpectrum::ONE.times(ratio), ratio, radiance: SampledSpectrum::ZERO, last: None }
+        Self {
+            beta: SampledSpectrum::ONE.times(ratio),
+            ratio,
+            radiance: SampledSpectrum::ZERO,
+            compression: 1.0,
+            last: None,
+        }
     }
 
-    /// Adds light that the ray itself met, which light sampling would draw with `pdf_light` (1/sr).
+    /// Adds light that the ray itself met after a passage, which light sampling would draw with
+    /// `pdf_light` (1/sr).
     #[inline]
-    fn add_found(&mut self, light: SampledSpectrum, pdf_light: impl FnOnce(&LastScatter) -> Real) {
-        let weight = self.last.map_or(1.0, |l| l.weight(pdf_light(&l)));
-        self.radiance += self.beta * light * (weight / self.ratio.mean());
+    fn add_found(
+        &mut self,
+        passage: &Passage,
+        light: SampledSpectrum,
+        pdf_light: impl FnOnce(&LastScatter) -> Real,
+    ) {
+        let weight = self.last.map_or(1.0, |l| l.weight(passage, pdf_light(&l)));
+        let ratio = self.ratio * passage.free.ratio_to_hero();
+        self.radiance += self.beta * passage.weight() * light * (weight / ratio.mean());
     }
 
-    /// Adds light that was drawn from the lights at a vertex.
+    /// Adds light that was drawn from the lights at a vertex, with density `pdf_light`, and comes by a passage.
     #[inline]
-    fn add_drawn(&mut self, f_cos: SampledSpectrum, light: SampledSpectrum, pdf_light: Real, pdf: LanePdf) {
+    fn add_drawn(&mut self, value: SampledSpectrum, passage: &Passage, pdf_light: Real, pdf: LanePdf) {
         let prefix = self.ratio.mean();
-        let weight = power_heuristic(prefix * pdf_light, (self.ratio * pdf).mean());
-        self.radiance += self.beta * f_cos * light * (weight / (prefix * pdf_light));
+        let weight = power_heuristic(prefix * pdf_light, (self.ratio * pdf * passage.free).mean());
+        self.radiance += self.beta * value * passage.transmittance * (weight / (prefix * pdf_light));
+    }
+
+    /// Arrives at a vertex.
+    #[inline]
+    fn arrive(&mut self, passage: &Passage, vertex: &Vertex) {
+        self.beta *= passage.weight();
+        self.ratio *= passage.free.ratio_to_hero();
+        if let Some(collision) = vertex.collision() {
+            self.beta = self.beta.times(collision);
+            self.ratio *= collision;
+        }
     }
 
     /// Goes on with some chance and makes up for the rest, by the largest lane's throughput.
     #[inline]
     fn survives_roulette(&mut self, u: Real) -> bool {
-        let chance = (self.beta.max_lane() / self.ratio.mean()).min(1.0);
+        let chance = (self.compression * self.beta.max_lane() / self.ratio.mean()).min(1.0);
         if u >= chance {
             return false;
         }
@@ -99,53 +128,81 @@ impl Path {
     }
 }
 
-/// Traces the path of a camera ray.
-pub fn trace(
-    scene: &Scene,
-    sample: &mut impl PrimarySample,
-    lambda: &SampledWavelengths,
-    camera: &CameraRay,
-    events: Events,
-) -> PathSample {
+/// Path tracing, with the memory that it needs.
+#[derive(Clone, Debug, Default)]
+pub struct PathTracer {
+    media: MediaMemory,
+}
+
+impl PathTracer {
+    /// Traces the path of a camera ray.
+    pub fn trace(
+        &mut self,
+        scene: &Scene,
+        sample: &mut impl PrimarySample,
+        lambda: &SampledWavelengths,
+        camera: &CameraRay,
+        events: Events,
+    ) -> PathSample {
+        trace(&self.media.world(scene, lambda), sample, camera, events)
+    }
+}
+
+fn trace(world: &World, sample: &mut impl PrimarySample, camera: &CameraRay, events: Events) -> PathSample {
+    let scene = world.scene;
     let mut path = Path::new(camera.ratio);
-    let mut ray = Ray::new(camera.origin, camera.direction);
+    let ray = Ray::new(camera.origin, camera.direction);
+    let mut flight = Flight::new(ray.o, ray, scene.camera_media);
     let mut alpha = 0.0;
     let mut depth = 0;
-    // Counts invisible surfaces, too: each has a choice of its own where it is part of a blend.
-    let mut vertex = 0;
+    // Counts what is not seen, too: each has a choice of its own where it is part of a blend.
+    let mut number = 0;
     loop {
-        let Some(hit) = scene.accel.intersect(&ray) else {
-            if let Some(light) = scene.lights.environment(ray.d, lambda).filter(|_| events.holds(depth)) {
-                path.add_found(light, |last| scene.lights.pdf_environment(&last.at, ray.d));
+        let arrival = flight.advance(world, || sample.block(Block::connect(number))[2]);
+        let wo = -flight.ray.d;
+        let (vertex, u) = match &arrival {
+            Arrival::Environment => {
+                let light = scene.lights.environment(-wo, world.lambda).filter(|_| events.holds(depth));
+                if let Some(light) = light {
+                    let pdf = |last: &LastScatter| scene.lights.pdf_environment(&last.at, -wo);
+                    path.add_found(&flight.passage, light, pdf);
+                }
+                break;
             }
-            break;
-        };
-        let at = scene.accel.surface(&ray, &hit);
-        let wo = -ray.d;
-        if events.holds(depth) {
-            add_emission(scene, &mut path, &at, wo, lambda);
-        }
-        let [u0, u1, u2, choice] = sample.block(Block::scatter(vertex));
-        let Some(shading) = shade(scene, &at, wo, lambda, choice) else {
-            // Not a scattering event: the path goes on as if nothing were here.
-            ray = continue_beyond(scene, &ray, &hit, &at);
-            vertex += 1;
-            continue;
+            Arrival::Medium(p) => {
+                (Vertex::in_medium(world, *p, wo, flight.media), sample.block(Block::scatter(number)))
+            }
+            Arrival::Surface(at) => {
+                if events.holds(depth) {
+                    add_emission(world, &mut path, &flight.passage, at, wo);
+                }
+                let u = sample.block(Block::scatter(number));
+                match shade(world, at, wo, &flight.media, u[3]) {
+                    Surface::Scatters(vertex) => (vertex, u),
+                    Surface::Unseen(media) => {
+                        // Not a scattering event: the path goes on as if nothing were here.
+                        flight.pass(world, at, media);
+                        number += 1;
+                        continue;
+                    }
+                }
+            }
         };
         alpha = 1.0;
         if depth == events.most {
             break;
         }
-        let lights = sample.block(Block::light(vertex));
-        if events.holds(depth + 1) {
-            add_direct_light(scene, &mut path, &at, &shading, lights, lambda);
+        path.arrive(&flight.passage, &vertex);
+        let lights = sample.block(Block::light(number));
+        if events.holds(depth + 1) && vertex.is_connectable() {
+            add_direct_light(world, &mut path, &vertex, lights);
         }
         if depth >= ROULETTE_FROM && !path.survives_roulette(lights[3]) {
             break;
         }
-        let Some(next) = shading.sample([u0, u1, u2], Mode::Radiance) else { break };
+        let Some(next) = vertex.sample([u[0], u[1], u[2]], Mode::Radiance) else { break };
         path.last = Some(LastScatter {
-            at: Receiver::facing(at.p, shading.n_g()),
+            at: vertex.receiver(),
             pdf: path.ratio * next.pdf,
             // Light drawn at this vertex does not go the way of an event of delta kind.
             prefix: if next.is_delta { 0.0 } else { path.ratio.mean() },
@@ -155,37 +212,35 @@ pub fn trace(
         if path.beta.is_black() {
             break;
         }
-        ray = spawn(scene, &at, next.wi);
+        path.compression *= vertex.compression(world, next.wi);
+        flight = vertex.leave(world, next.wi);
         depth += 1;
-        vertex += 1;
+        number += 1;
     }
     PathSample { radiance: path.radiance * camera.importance, alpha }
 }
 
 #[inline]
-fn add_emission(scene: &Scene, path: &mut Path, at: &SurfacePoint, wo: Vec3, lambda: &SampledWavelengths) {
+fn add_emission(world: &World, path: &mut Path, passage: &Passage, at: &SurfacePoint, wo: Vec3) {
+    let lights = &world.scene.lights;
     let hit = emitter_hit(at);
-    if let Some(light) = scene.lights.emitted(&hit, wo, lambda) {
-        path.add_found(light, |last| scene.lights.pdf_object(&hit, &last.at));
+    if let Some(light) = lights.emitted(&hit, wo, world.lambda) {
+        path.add_found(passage, light, |last| lights.pdf_object(&hit, &last.at));
     }
 }
 
 #[inline]
-fn add_direct_light(
-    scene: &Scene,
-    path: &mut Path,
-    at: &SurfacePoint,
-    shading: &ShadingPoint,
-    u: [Real; 4],
-    lambda: &SampledWavelengths,
-) {
-    let to = Receiver::facing(at.p, shading.n_g());
-    let Some(light) = scene.lights.sample(&to, [u[0], u[1], u[2]], lambda) else { return };
-    let response = shading.eval(light.wi, Mode::Radiance);
-    if response.f_cos.is_black() || light.radiance.is_black() {
+fn add_direct_light(world: &World, path: &mut Path, vertex: &Vertex, u: [Real; 4]) {
+    let lights = &world.scene.lights;
+    let Some(light) = lights.sample(&vertex.receiver(), [u[0], u[1], u[2]], world.lambda) else {
+        return;
+    };
+    let response = vertex.eval(light.wi, Mode::Radiance);
+    let value = response.f_cos * light.radiance;
+    if value.is_black() {
         return;
     }
-    if is_lit(scene, at, &light) {
-        path.add_drawn(response.f_cos, light.radiance, light.pdf, response.pdf);
+    if let Some(passage) = way_to_light(world, vertex, &light) {
+        path.add_drawn(value, &passage, light.pdf, response.pdf);
     }
 }

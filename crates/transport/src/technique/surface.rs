@@ -1,29 +1,53 @@
-//! From a point that a ray met to a scattering model that a path can use.
+//! From a point that a ray met to a vertex of a path.
 
+use super::media::{World, sides};
+use super::vertex::Vertex;
 use indigo_geom::SurfacePoint;
 use indigo_light::EmitterHit;
 use indigo_math::{Real, Vec3};
-use indigo_scatter::{Interface, ShadingPoint};
-use indigo_scene::Scene;
-use indigo_spectrum::SampledWavelengths;
+use indigo_scatter::{MediumStack, ShadingPoint};
 
-/// The scattering model at a point seen from `wo`; `None` where light passes as if nothing were there.
+/// What a surface is to a path.
+#[expect(clippy::large_enum_variant, reason = "a path uses no heap, and takes this apart at once")]
+pub(super) enum Surface {
+    /// Light is scattered.
+    Scatters(Vertex),
+    /// Light passes as if nothing were there, into other media.
+    Unseen(MediumStack),
+}
+
+/// A surface seen from `wo` by a path with `media` round it.
+///
+/// Where the medium is the same on both sides, since another one displaces that of the surface, there is no
+/// interface, so none is seen (Schmidt & Budge 2002).
 ///
 /// `choice`, in [0, 1), picks one of the materials of a blend with the probability of its share. A
 /// blend is linear in its materials and the choice does not depend on directions, so one material at
 /// a time has the right mean, and the probability is the same for every strategy that could have
 /// made the path: it cancels in their weights.
 #[inline]
-pub fn shade(
-    scene: &Scene,
+pub(super) fn shade(
+    world: &World,
     at: &SurfacePoint,
     wo: Vec3,
-    lambda: &SampledWavelengths,
+    media: &MediumStack,
     choice: Real,
-) -> Option<ShadingPoint> {
-    let context = scene.material_context(lambda, Interface::NONE, choice);
-    let leaf = scene.material_at(at).leaf(&context, |set| scene.accel.uv(at, set))?;
-    Some(ShadingPoint::new(leaf, at.n_g, at.n_s, wo))
+) -> Surface {
+    let scene = world.scene;
+    let material = scene.material_at(at);
+    let medium = if world.has_media() { material.internal_medium() } else { None };
+    let (above, below) = sides(medium, media, wo.dot(at.n_g) < 0.0);
+    if medium.is_some() && above.current() == below.current() {
+        return Surface::Unseen(below);
+    }
+    let context = scene.material_context(world.lambda, world.interface(&above, &below), choice);
+    match material.leaf(&context, |set| scene.accel.uv(at, set)) {
+        Some(leaf) => {
+            let shading = ShadingPoint::new(leaf, at.n_g, at.n_s, wo);
+            Surface::Scatters(Vertex::on_surface(at, shading, above, below))
+        }
+        None => Surface::Unseen(below),
+    }
 }
 
 /// The point as the lights know it.

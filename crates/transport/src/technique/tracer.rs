@@ -1,7 +1,8 @@
 //! The techniques behind one door.
 
 use super::bidirectional::Bidirectional;
-use super::{Events, PathSample, Record, Splat, path};
+use super::path::PathTracer;
+use super::{Events, PathSample, Record, Splat};
 use crate::sampler::{Block, PrimarySample};
 use indigo_film::Sensor;
 use indigo_math::{Real, Vec2};
@@ -12,7 +13,7 @@ use indigo_spectrum::SampledWavelengths;
 #[derive(Clone, Debug)]
 pub enum Tracer {
     /// Path tracing.
-    Path,
+    Path(PathTracer),
     /// Bidirectional path tracing.
     Bidirectional(Box<Bidirectional>),
 }
@@ -32,7 +33,7 @@ impl Tracer {
         if is_bidirectional {
             Self::Bidirectional(Box::new(Bidirectional::new(rendered)))
         } else {
-            Self::Path
+            Self::Path(PathTracer::default())
         }
     }
 
@@ -53,7 +54,7 @@ impl Tracer {
         let [d0, d1, ..] = numbers.block(Block::DIFFRACTION);
         let camera = scene.camera.sample(position, Vec2::new(x, y), Vec2::new(d0, d1), &lambda);
         let path = match self {
-            Self::Path => path::trace(scene, numbers, &lambda, &camera, events),
+            Self::Path(path) => path.trace(scene, numbers, &lambda, &camera, events),
             Self::Bidirectional(b) => b.trace(scene, numbers, &lambda, &camera, events, record),
         };
         Found { path, sensor: Sensor::new(&lambda) }
@@ -63,7 +64,7 @@ impl Tracer {
     #[inline]
     pub fn splats(&self) -> &[Splat] {
         match self {
-            Self::Path => &[],
+            Self::Path(_) => &[],
             Self::Bidirectional(b) => b.splats(),
         }
     }

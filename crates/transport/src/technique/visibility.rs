@@ -1,14 +1,17 @@
-//! Rays between vertices: leaving a surface, passing through what is invisible.
+//! Rays between vertices: leaving a surface, and what lies between two points.
 
-use indigo_geom::{Hit, Ray, SurfacePoint, offset_origin};
+use super::media::{Passage, World, sides};
+use super::vertex::Vertex;
+use indigo_geom::{Ray, SurfacePoint, offset_origin};
 use indigo_light::{EmitterPoint, LightSample};
-use indigo_math::Vec3;
+use indigo_math::{Real, Vec3};
+use indigo_scatter::MediumStack;
 use indigo_scene::Scene;
 
 /// An end of a straight way.
 #[derive(Clone, Copy, Debug)]
-pub struct Point {
-    p: Vec3,
+pub(super) struct Point {
+    pub p: Vec3,
     p_error: Vec3,
     /// Normal of the surface that it lies on; zero in free space.
     n: Vec3,
@@ -36,6 +39,9 @@ impl Point {
     /// Where a ray begins that leaves in a direction, clear of the surface's own error.
     #[inline]
     fn leave(&self, scene: &Scene, direction: Vec3) -> Vec3 {
+        if self.n == Vec3::ZERO {
+            return self.p;
+        }
         offset_origin(self.p, self.p_error, self.n, direction, scene.nudge_m)
     }
 
@@ -46,58 +52,70 @@ impl Point {
     }
 }
 
-/// A ray from a surface in a direction, clear of the surface's own error.
+/// The way from a vertex to the light that was drawn for it; `None` where something stands between.
 #[inline]
-pub fn spawn(scene: &Scene, from: &SurfacePoint, direction: Vec3) -> Ray {
-    Point::of_surface(from).spawn(scene, direction)
-}
-
-/// Whether nothing stands between a surface point and the light that was drawn for it.
-#[inline]
-pub fn is_lit(scene: &Scene, from: &SurfacePoint, light: &LightSample) -> bool {
+pub(super) fn way_to_light(world: &World, from: &Vertex, light: &LightSample) -> Option<Passage> {
     match &light.point {
-        None => !is_blocked(scene, &spawn(scene, from, light.wi)),
-        Some(to) => is_unblocked(scene, &Point::of_surface(from), &Point::of_light(to)),
+        None => {
+            let ray = from.point.spawn(world.scene, light.wi);
+            passage(world, &ray, 1.0, from.media_towards(light.wi))
+        }
+        Some(to) => way(world, from, light.wi, &Point::of_light(to)),
     }
 }
 
-/// Whether nothing stands between two points.
+/// The way from a vertex to a point in direction `wi`; `None` where something stands between.
 #[inline]
-pub fn is_unblocked(scene: &Scene, from: &Point, to: &Point) -> bool {
-    let way = to.p - from.p;
-    let origin = from.leave(scene, way);
-    let target = to.leave(scene, -way);
+pub(super) fn way(world: &World, from: &Vertex, wi: Vec3, to: &Point) -> Option<Passage> {
+    let along = to.p - from.point.p;
+    let origin = from.point.leave(world.scene, along);
+    let target = to.leave(world.scene, -along);
     // t = 1 is the target itself, which does not count.
-    !is_blocked(scene, &Ray { o: origin, d: target - origin, t_min: 0.0, t_max: 1.0 })
+    let ray = Ray { o: origin, d: target - origin, t_min: 0.0, t_max: 1.0 };
+    // The ray leaves its ends a little way off; what it passes counts from the ends themselves.
+    let length = if world.has_media() { along.length() } else { 0.0 };
+    passage(world, &ray, length, from.media_towards(wi))
 }
 
-/// Whether a visible surface is hit between the ray's ends.
+/// What light passes between the ray's ends, where a step of 1 along it is of some length in metres; `None`
+/// where a surface stands between.
 #[inline]
-fn is_blocked(scene: &Scene, ray: &Ray) -> bool {
-    if !scene.has_invisible_surfaces {
-        return scene.accel.occluded(ray);
+fn passage(world: &World, ray: &Ray, length: Real, media: &MediumStack) -> Option<Passage> {
+    if !world.scene.accel.occluded(ray) {
+        return Some(world.passage(media, ray.t_max * length));
     }
-    if !scene.accel.occluded(ray) {
-        return false;
-    }
-    let mut ray = *ray;
+    if world.scene.has_unseen_surfaces { walk(world, *ray, length, *media) } else { None }
+}
+
+/// The same through all surfaces that are not to be seen.
+fn walk(world: &World, mut ray: Ray, length: Real, mut media: MediumStack) -> Option<Passage> {
+    let scene = world.scene;
+    let mut passed = 0.0;
+    let mut sum = Passage::CLEAR;
     while let Some(hit) = scene.accel.intersect(&ray) {
         let at = scene.accel.surface(&ray, &hit);
-        if !scene.material_at(&at).is_invisible() {
-            return true;
+        let (share, beyond) = unseen(world, &at, ray.d, &media);
+        if share == 0.0 {
+            return None;
         }
-        ray = continue_beyond(scene, &ray, &hit, &at);
+        sum = sum.then(world.passage(&media, (hit.t - passed) * length));
+        sum.transmittance *= share;
+        (passed, media) = (hit.t, beyond);
+        ray = ray.beyond(hit.t, at.p_error.length().max(scene.nudge_m));
     }
-    false
+    Some(sum.then(world.passage(&media, (ray.t_max - passed) * length)))
 }
 
-/// The rest of a ray behind a surface that it passes through.
-///
-/// Origin and far end stay where they are and the ray on its line: an offset along the normal would
-/// shift it a little at every surface, and many of them would bend the way to a light.
-#[inline]
-pub fn continue_beyond(scene: &Scene, ray: &Ray, hit: &Hit, at: &SurfacePoint) -> Ray {
-    let step = at.p_error.length().max(scene.nudge_m) / ray.d.length();
-    // However short the step, `t` moves on, so that this ends.
-    Ray { t_min: (hit.t + step).max(hit.t.next_up()), ..*ray }
+/// The share of light that passes a surface as if nothing were there, and the media beyond it.
+fn unseen(world: &World, at: &SurfacePoint, direction: Vec3, media: &MediumStack) -> (Real, MediumStack) {
+    let scene = world.scene;
+    let material = scene.material_at(at);
+    let medium = if world.has_media() { material.internal_medium() } else { None };
+    let (above, below) = sides(medium, media, direction.dot(at.n_g) > 0.0);
+    if medium.is_some() && above.current() == below.current() {
+        return (1.0, below);
+    }
+    // The share is the mean over all choices.
+    let context = scene.material_context(world.lambda, world.interface(&above, &below), 0.0);
+    (material.unseen_share(&context, |set| scene.accel.uv(at, set)), below)
 }

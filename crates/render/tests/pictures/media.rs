@@ -1,0 +1,146 @@
+//! What light does in media and at their surfaces, against closed forms.
+
+use super::common::judge::{NITS_PER_UNIFORM, assert_is};
+use super::common::shapes::{Mesh, model};
+use super::common::text::{
+    background, basic, flat_camera, medium, scene_file, settings, specular, sphere, uniform,
+};
+use super::common::{Measured, measure, scene};
+use indigo_scene::Scene;
+
+/// Spectral radiance of the surroundings, W m^-3 sr^-1.
+const AROUND: f64 = 3.0e4;
+
+/// Objects before a camera that sees a width of ±`tangent`, in light that is the same from everywhere.
+fn in_uniform_light(pos: [f64; 3], tangent: f64, parts: &[String]) -> Scene {
+    let head = [settings(16, ""), flat_camera(pos, [0.0, 1.0, 0.0], tangent), background(&uniform(AROUND))];
+    scene(&scene_file(&[head.as_slice(), parts].concat()))
+}
+
+fn assert_luminance(what: &str, measured: &Measured, over_surroundings: f64) {
+    assert_within(what, measured, over_surroundings, 1e-3);
+}
+
+fn assert_within(what: &str, measured: &Measured, over_surroundings: f64, tolerance: f64) {
+    assert_is(what, measured.luminance(), AROUND * NITS_PER_UNIFORM * over_surroundings, tolerance);
+}
+
+fn clear(name: &str, precedence: u32, ior: f64) -> String {
+    medium(name, precedence, &basic(ior, &uniform(0.0), ""))
+}
+
+fn absorbing(name: &str, precedence: u32, ior: f64, absorption: f64) -> String {
+    medium(name, precedence, &basic(ior, &uniform(absorption), ""))
+}
+
+/// A box from -`half` to `half` of which the front looks out.
+fn cube(half: f64, material: &str) -> String {
+    Mesh::cube(half).text("cube", material) + &model("cube")
+}
+
+/// What is lost at one surface is gained at another: clear glass in even light cannot be seen.
+#[test]
+fn clear_glass_in_even_light_is_invisible() {
+    for (name, object) in [
+        ("ball", sphere([0.0; 3], 1.0, "glass")),
+        ("box", cube(0.7, "glass")),
+        ("hollow ball", sphere([0.0; 3], 1.0, "glass") + &sphere([0.0; 3], 0.8, "hollow")),
+    ] {
+        let glass =
+            [clear("g", 10, 1.5), specular("glass", "g"), clear("a", 20, 1.0), specular("hollow", "a")];
+        for bidirectional in [false, true] {
+            let mut scene = in_uniform_light([0.0, -5.0, 0.0], 0.21, &[glass.concat(), object.clone()]);
+            scene.transport.bidirectional = bidirectional;
+            assert_luminance(name, &measure(&scene, 8, 32), 1.0);
+        }
+    }
+}
+
+/// Beer and Lambert: e^(-σd), behind surfaces that are not there since the indices are equal.
+#[test]
+fn absorption_falls_off_with_the_exponential_of_the_way() {
+    let parts = [absorbing("m", 10, 1.0, 10.0), specular("surface", "m"), cube(0.05, "surface")];
+    let scene = in_uniform_light([0.0, -5.0, 0.0], 0.001, &parts);
+    assert_luminance("10/m over 0.1 m", &measure(&scene, 8, 64), (-1.0f64).exp());
+}
+
+/// A plane-parallel plate seen straight on, with all reflections inside: R = ((η - 1)/(η + 1))², e = e^(-σd),
+/// T = (1 - R)² e / (1 - R² e²); what is not let through is reflected or absorbed, and light comes from everywhere.
+#[test]
+fn a_plate_lets_through_what_all_its_reflections_leave() {
+    for (ior, absorption, d, transmitted, reflected) in [
+        (1.5, 0.0, 1.0, 0.923_076_923, 0.076_923_077),
+        (1.5, 10.0, 0.1, 0.339_111_123, 0.044_990_080),
+        (1.33, 5.0, 0.05, 0.748_052_302, 0.031_745_541),
+    ] {
+        let lamp = "<rectanglelight><pos>0 0 30</pos><width>60</width><height>60</height><spectrum>";
+        let light = format!("{lamp}{}</spectrum></rectanglelight>", uniform(AROUND));
+        let plate =
+            Mesh::cube(1.0).placed([20.0, 0.0, 0.0, 0.0, 20.0, 0.0, 0.0, 0.0, d / 2.0], 1.0, [0.0; 3]);
+        let of = |height: f64, down: f64| {
+            let scene = scene(&scene_file(&[
+                settings(8, ""),
+                flat_camera([0.0, 0.0, height], [0.0, 0.0, down], 1e-3),
+                absorbing("m", 10, ior, absorption),
+                specular("surface", "m"),
+                plate.text("plate", "surface"),
+                model("plate"),
+                light.clone(),
+            ]));
+            measure(&scene, 16, 400)
+        };
+        assert_luminance("through the plate", &of(-5.0, 1.0), transmitted);
+        // Mirrored: the lamp lies behind the camera, and its back is black.
+        assert_within("on the plate", &of(5.0, -1.0), reflected, 1.2e-2);
+    }
+}
+
+/// An absorbing glass ball: for each ray R + (1 - R)² e / (1 - R e) with e = e^(-2 σ r cos t); the mean over
+/// the middle 4 by 4 of 32 by 32 pixels by quadrature.
+#[test]
+fn an_absorbing_glass_ball_has_its_closed_form() {
+    let parts = [absorbing("m", 10, 1.5, 1.0), specular("glass", "m"), sphere([0.0; 3], 1.0, "glass")];
+    // The middle eighth of a field of 20 degrees.
+    let scene = in_uniform_light([0.0, -5.0, 0.0], 10f64.to_radians().tan() / 8.0, &parts);
+    assert_luminance("middle", &measure(&scene, 16, 800), 0.165_860);
+}
+
+/// A liquid that reaches into its glass, which displaces it there, ends where the glass ends.
+#[test]
+fn glass_displaces_the_liquid_that_overlaps_it() {
+    let at = |y: f64, half: f64, name: &str, material: &str| {
+        let m = Mesh::cube(1.0).placed([half, 0.0, 0.0, 0.0, half, 0.0, 0.0, 0.0, half], 1.0, [0.0, y, 0.0]);
+        m.text(name, material) + &model(name)
+    };
+    let materials = specular("outside", "glass") + &specular("inside", "wine");
+    // A box of glass from -0.5 to 0.5, and one of liquid from 0.1 to 0.7.
+    let boxes = at(0.0, 0.5, "a", "outside") + &at(0.4, 0.3, "b", "inside");
+    let seen = |glass: u32, wine: u32| {
+        let media = absorbing("glass", glass, 1.5, 0.5) + &absorbing("wine", wine, 1.33, 3.0);
+        let scene = in_uniform_light([0.0, -5.0, 0.0], 1e-3, &[media, materials.clone(), boxes.clone()]);
+        measure(&scene, 16, 800)
+    };
+    // Straight through: three interfaces and two ways, with all reflections between them.
+    let expected = layers(&[(1.0, 0.0), (1.5, 0.5), (1.33, 3.0 * 0.2), (1.0, 0.0)]);
+    assert_luminance("glass before liquid", &seen(20, 10), expected);
+    let expected = layers(&[(1.0, 0.0), (1.5, 0.5 * 0.6), (1.33, 3.0 * 0.6), (1.0, 0.0)]);
+    assert_luminance("liquid before glass", &seen(10, 20), expected);
+}
+
+/// Light that comes straight out of a stack of layers, each an index and an optical depth, in surroundings that
+/// shine from both sides: by adding layers from the back.
+fn layers(stack: &[(f64, f64)]) -> f64 {
+    let reflectance = |a: f64, b: f64| ((a - b) / (a + b)).powi(2);
+    // Everything that is behind shows the radiance `back`, over η², and mirrors the share `mirrored`.
+    let (mut shown, mut mirrored) = (1.0, 0.0);
+    for pair in stack.windows(2).rev() {
+        let ((front, _), (behind, depth)) = (pair[0], pair[1]);
+        let r = reflectance(front, behind);
+        let e = (-depth).exp();
+        // Through the layer behind the interface, and back and forth between it and what follows.
+        let (back, mirror) = (shown * e, mirrored * e * e);
+        shown = (1.0 - r) * back / (1.0 - r * mirror);
+        mirrored = r + (1.0 - r) * (1.0 - r) * mirror / (1.0 - r * mirror);
+    }
+    shown + mirrored
+}
