@@ -279,7 +279,7 @@ fn transport_settings_reach_the_scene() {
     assert!(default.bidirectional && !default.hybrid && default.max_depth == 10_000);
     let metropolis = default.metropolis.expect("on by default");
     assert_eq!(metropolis.large_mutation_prob, 0.4);
-    assert_eq!(metropolis.max_change as f32, 0.01);
+    assert_eq!(metropolis.max_change, 0.01);
     assert_eq!(metropolis.max_consecutive_rejections, 1000);
     let set = transport(
         "<bidirectional>false</bidirectional><large_mutation_prob>0.1</large_mutation_prob>\
@@ -288,7 +288,7 @@ fn transport_settings_reach_the_scene() {
     assert!(!set.bidirectional);
     let metropolis = set.metropolis.expect("on by default");
     assert_eq!(metropolis.large_mutation_prob, 0.1);
-    assert_eq!((metropolis.max_change as f32, metropolis.max_consecutive_rejections), (0.5, 7));
+    assert_eq!((metropolis.max_change, metropolis.max_consecutive_rejections), (0.5, 7));
     assert_eq!(transport("<metropolis>false</metropolis>").metropolis, None);
     // A hybrid needs Metropolis sampling for its indirect light.
     let hybrid = transport("<metropolis>false</metropolis><hybrid>true</hybrid>");
