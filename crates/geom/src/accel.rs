@@ -295,10 +295,14 @@ impl<K: Kernel> Specials<K::Scalar> for SceneSpecials<'_, K> {
 
     #[inline(never)]
     fn test<const ANY: bool>(&self, number: u32, hit: &mut RawHit<K::Scalar>) -> bool {
-        let special = self.accel.trees.specials[number as usize];
+        let Some(special) = self.accel.trees.specials.get(number as usize) else { return false };
         match &self.accel.objects[special.object as usize] {
             Object::Mesh { transform, .. } => {
                 let ray = instance_ray(self.ray, transform);
+                // The kernel's promises hold for sound rays only, and the image of one need not be.
+                if !ray.is_sound() {
+                    return false;
+                }
                 let mut inner = RawHit::none(hit.t);
                 let view = self.accel.view();
                 let found = K::walk::<ANY, _>(view, special.root, &ray, &mut inner, &NoSpecials);

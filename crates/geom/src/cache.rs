@@ -4,14 +4,14 @@
 //! the BLAKE3 hash of all before it. The key names the triangles and the builder. The hash tells
 //! damage; the checks after it keep a forged file from leading the kernel out of its arrays.
 
-use crate::build::{Builder, TRIANGLE_DEPTH, build_triangles};
+use crate::build::{Builder, TRIANGLE_DEPTH, build_triangles, is_traceable};
 use crate::soup::Soup;
 use crate::store::TreeStore;
 use crate::wide::{Block, Box3, Child, Node, WideTree, stack_need};
 
 const MAGIC: [u8; 8] = *b"IndiTree";
 /// To be raised with every change to this layout, to a builder, or to what the kernel expects.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 const HEADER: usize = 8 + 4 + 4 + 3 * 8 + 4 + 6 * 4;
 const NODE: usize = (6 * 8 + 8) * 4;
 const BLOCK: usize = (9 * 8 + 8) * 4;
@@ -189,9 +189,12 @@ fn is_sound(tree: &WideTree, skipped: usize, soup: &Soup) -> bool {
     }
     let all = |seen: &[bool]| seen.iter().all(|s| *s);
     let triangles = check.triangle_seen.iter().filter(|s| **s).count();
+    // What is left out may only be what a builder leaves out.
+    let left_out = (0..).zip(&check.triangle_seen).filter(|(_, seen)| !**seen);
     all(&check.node_seen)
         && all(&check.block_seen)
         && triangles == expected
+        && left_out.into_iter().all(|(id, _)| !is_traceable(&soup.corners(id)))
         && stack_need(&tree.nodes, tree.root) <= 7 * TRIANGLE_DEPTH as usize
 }
 

@@ -29,10 +29,18 @@ pub enum Object {
 }
 
 impl Object {
-    /// Whether the numbers have a meaning (finite, radius above 0, normal not 0).
+    /// Whether the numbers have a meaning (finite, radius above 0, normal not 0), and those of a
+    /// transformation and its inverse fit into single precision.
     pub(crate) fn is_sound(&self) -> bool {
         match *self {
-            Self::Mesh { transform, .. } => transform.origin().is_finite(),
+            Self::Mesh { transform, .. } => {
+                let origin = transform.inverse_point(Vec3d::ZERO);
+                let axes = [Vec3d::new(1.0, 0.0, 0.0), Vec3d::new(0.0, 1.0, 0.0), Vec3d::new(0.0, 0.0, 1.0)];
+                let images = axes.map(|a| [transform.vector(a), transform.inverse_vector(a)]);
+                // Rays are taken into the mesh's own space in single precision.
+                let fits = |v: &Vec3d| v.abs().max_component() <= f64::from(f32::MAX);
+                images.iter().flatten().chain([&transform.origin(), &origin]).all(fits)
+            }
             Self::Sphere { center, radius } => center.is_finite() && radius > 0.0 && radius.is_finite(),
             Self::Plane { normal, dist } => normal.try_normalized().is_some() && dist.is_finite(),
         }

@@ -1,6 +1,6 @@
 //! The tree above the trees: instances, spheres, and the baked tree opened into a few subtrees.
 
-use crate::build::{LeafMaker, Prim, TOP_DEPTH, collapse, split_all};
+use crate::build::{LeafMaker, Prim, Size, TOP_DEPTH, collapse, split_all};
 use crate::wide::{Box3, Child, Node};
 use indigo_math::{Bounds3, Transform, Vec3d};
 
@@ -21,7 +21,9 @@ struct Items<'a>(&'a [TopItem]);
 impl LeafMaker for Items<'_> {
     const WIDTH: u32 = 1;
     const MAX_BLOCKS: u32 = 1;
-    fn make(&mut self, ids: &[u32]) -> Child {
+    type Block = ();
+    const EMPTY: () = ();
+    fn make(&self, ids: &[u32], _blocks: &mut [()], _first: usize) -> Child {
         self.0[ids[0] as usize].child
     }
 }
@@ -34,7 +36,9 @@ pub(crate) fn build_top(items: &[TopItem], nodes: &mut Vec<Node>) -> (Child, Box
     let prim = |(i, item): (usize, &TopItem)| Prim::new(&item.bounds, i as u32);
     let mut prims: Vec<Prim> = items.iter().enumerate().map(prim).collect();
     let binary = split_all(&mut prims, 1, TOP_DEPTH);
-    let root = collapse(&binary, &prims, &mut Items(items), nodes);
+    let first = Size { nodes: nodes.len(), blocks: 0 };
+    let (upper, _, root) = collapse(&binary, &prims, &Items(items), first);
+    nodes.extend(upper);
     (root, binary[0].bounds())
 }
 

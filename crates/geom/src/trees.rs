@@ -51,7 +51,7 @@ impl Trees {
     ) -> Result<Self, BuildError> {
         let plan = Plan::new(meshes, objects, options);
         plan.check(meshes, objects)?;
-        let mut forest = Forest { nodes: Vec::new(), blocks: Vec::new(), stats: Stats::default() };
+        let mut forest = Forest { nodes: Vec::new(), blocks: Vec::new(), stats: Stats::default(), trees: 0 };
         let (soup, baked) = bake(meshes, objects, &plan.baked);
         let (mut root, mut bounds) = forest.add(&soup, options, store);
         drop(soup);
@@ -66,13 +66,18 @@ impl Trees {
             }
             (root, bounds) = build_top(&items, &mut forest.nodes);
         }
-        let Forest { nodes, blocks, mut stats } = forest;
+        let is_one_tree = forest.trees == 1 && items.is_empty();
+        let Forest { mut nodes, mut blocks, mut stats, .. } = forest;
+        if !is_one_tree {
+            // A builder's own arrays are in huge pages; those that grew are not.
+            (nodes, blocks) = (in_huge_pages(&nodes), in_huge_pages(&blocks));
+        }
         stats.tree_bytes = size_of_val(nodes.as_slice()) + size_of_val(blocks.as_slice());
         stats.instances = specials.iter().filter(|s| s.root != Child::NONE).count();
         let is_plane = |&i: &u32| matches!(objects[i as usize], Object::Plane { .. });
         Ok(Self {
-            nodes: in_huge_pages(nodes),
-            blocks: in_huge_pages(blocks),
+            nodes,
+            blocks,
             root,
             bounds,
             specials,
@@ -97,6 +102,7 @@ struct Forest {
     nodes: Vec<Node>,
     blocks: Vec<Block>,
     stats: Stats,
+    trees: usize,
 }
 
 impl Forest {
@@ -106,6 +112,7 @@ impl Forest {
         self.stats.triangles += soup.triangles.len() - skipped;
         self.stats.skipped_triangles += skipped;
         self.stats.trees_loaded += usize::from(loaded);
+        self.trees += 1;
         if self.nodes.is_empty() && self.blocks.is_empty() {
             (self.nodes, self.blocks) = (tree.nodes, tree.blocks);
             return (tree.root, tree.bounds);

@@ -21,8 +21,9 @@ impl Child {
     const LEAF: u32 = 1 << 31;
     const SHIFT: u32 = 27;
     const FIRST: u32 = (1 << Self::SHIFT) - 1;
-    /// What fills the unused places of a node, and the root of a tree of nothing.
-    pub(crate) const NONE: Self = Self(u32::MAX);
+    /// What fills the unused places of a node, and the root of a tree of nothing: a leaf of no blocks
+    /// that stands for no object, so that it does no harm even where it is looked at.
+    pub(crate) const NONE: Self = Self(Self::LEAF | Self::FIRST);
 
     /// An inner node.
     pub(crate) fn node(index: usize) -> Self {
@@ -38,7 +39,7 @@ impl Child {
 
     /// A leaf that is not made of triangles.
     pub(crate) fn special(number: u32) -> Self {
-        debug_assert!(number <= Self::FIRST);
+        debug_assert!(number < Self::FIRST);
         Self(Self::LEAF | number)
     }
 

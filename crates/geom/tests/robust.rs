@@ -297,3 +297,36 @@ fn points_of_triangles_that_are_not_there_are_none() {
     assert!((vec(p) - expected).length() < 1e-6);
     assert!(accel.bounds().hi.x.to_f64() > 2.0);
 }
+
+/// The image of a ray in a tiny or huge instance's own space can leave single precision.
+#[test]
+fn instances_of_extreme_scale_are_refused_or_traced_without_harm() {
+    let mut random = Random(5);
+    let points: Vec<[f32; 3]> = (0..3 * 9001).map(|_| random.direction().cast::<f32>().to_array()).collect();
+    let triangles = (0..9001).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+    let shape = mesh(points, triangles);
+    let mut built = 0;
+    for exponent in [-45, -42, -39, -38, -37, -30, 30, 37, 38, 39, 45] {
+        let s = 10f64.powi(exponent);
+        let scale =
+            Mat3 { rows: [Vec3d::new(s, 0.0, 0.0), Vec3d::new(0.0, s, 0.0), Vec3d::new(0.0, 0.0, s)] };
+        for at in [0.0, 10.0, 1e30] {
+            let place = |x: f64| {
+                let transform = Transform::new(scale, Vec3d::new(x, at, at)).expect("invertible");
+                Object::Mesh { mesh: 0, transform }
+            };
+            let objects = vec![place(at), place(2.0 * at)];
+            let built_now = Accel::build(vec![shape.clone()], objects, &BuildOptions::default(), &NoStore);
+            let Ok(accel) = built_now else { continue };
+            built += 1;
+            for _ in 0..300 {
+                let o = random.direction() * 10f64.powf(random.range(-44.0, 38.4));
+                let r = ray(o, Vec3d::new(at, at, at) - o + random.direction());
+                let hit = accel.intersect(&r);
+                assert!(hit.is_none_or(|h| h.primitive < 9001 && h.object < 2));
+                accel.occluded(&r);
+            }
+        }
+    }
+    assert!(built > 10);
+}

@@ -7,6 +7,7 @@
 mod embree;
 mod scenes;
 
+use cpu_time::ThreadTime;
 use embree::{Device, Embree, Mode, Scene};
 use indigo_geom::{Accel, BuildOptions, NoStore, Object, Ray, TriangleMesh};
 use indigo_math::{Mat3, Transform, Vec3d};
@@ -175,6 +176,7 @@ fn race(embree: &Embree, scene: &BenchScene, reps: usize, missed: &mut Vec<Strin
 
 /// Times one ray set for all contenders in turn: for each short piece of it the shortest of `reps`
 /// runs, summed, so that other load on the machine falls on few pieces and on all contenders alike.
+/// Only the time in which the thread itself ran is counted.
 fn time_set(field: &mut [Contender], k: usize, set: &[Ray], reps: usize) {
     for c in field.iter_mut() {
         (c.best[k], c.hits[k]) = (0.0, 0);
@@ -184,7 +186,7 @@ fn time_set(field: &mut [Contender], k: usize, set: &[Ray], reps: usize) {
         let mut hits = vec![0; field.len()];
         for _ in 0..reps {
             for (i, contender) in field.iter().enumerate() {
-                let start = Instant::now();
+                let start = ThreadTime::now();
                 let (count, sum) = (contender.trace)(piece, k == 3);
                 best[i] = best[i].min(start.elapsed().as_secs_f64());
                 std::hint::black_box(sum);

@@ -44,6 +44,9 @@ impl Lanes {
 pub(crate) struct Prim(Lanes);
 
 impl Prim {
+    /// Stands for what is not to be sorted in; no primitive has its number.
+    pub(crate) const NONE: Self = Self(Lanes([f32::from_bits(u32::MAX); 8]));
+
     pub(crate) fn new(b: &Box3, id: u32) -> Self {
         let ([x, y, z], [a, b, c]) = (b.lo, b.hi);
         Self(Lanes([x, y, z, f32::from_bits(id), -a, -b, -c, 0.0]))

@@ -2,17 +2,20 @@
 //! Bounding Volume Hierarchies", 2007).
 
 use super::binary::{BinaryNode, Lanes, Prim};
+use crate::pages::with_capacity;
 
 /// Most bins along an axis.
 const BINS: usize = 16;
 /// Below this many primitives a subtree is built by one thread.
-const PARALLEL: usize = 4096;
+///
+/// What the right of two threads builds is copied behind what the left one did, at every such level.
+const PARALLEL: usize = 1 << 14;
 
 /// Builds a binary tree over all of `prims`, which it reorders; leaves hold up to `max_leaf`.
 ///
 /// No leaf is deeper than `max_depth` as long as there are at most 2^`max_depth` primitives.
 pub(crate) fn split_all(prims: &mut [Prim], max_leaf: usize, max_depth: u32) -> Vec<BinaryNode> {
-    let mut out = Vec::with_capacity(2 * prims.len() / max_leaf);
+    let mut out = with_capacity(2 * prims.len() / max_leaf);
     let task = Task { first: 0, depth_left: max_depth, extent: Extent::of(prims) };
     Splitter { max_leaf }.split(prims, task, &mut out);
     out
@@ -54,7 +57,7 @@ impl Splitter {
             out[at] = BinaryNode::inner(&bounds, out.len() - at);
             self.split(right, right_task, out);
         } else {
-            let mut behind = Vec::with_capacity(2 * right.len() / self.max_leaf);
+            let mut behind = with_capacity(2 * right.len() / self.max_leaf);
             rayon::join(|| self.split(left, left_task, out), || self.split(right, right_task, &mut behind));
             out[at] = BinaryNode::inner(&bounds, out.len() - at);
             out.append(&mut behind);

@@ -5,7 +5,9 @@
 //! its subtree as at most k children of some wide node.
 
 use super::binary::{BinaryNode, Prim};
+use crate::pages::with_capacity;
 use crate::wide::{Child, Node};
+use rayon::prelude::*;
 
 /// Cost of testing a node's eight boxes.
 const NODE_COST: f32 = 1.0;
@@ -16,13 +18,18 @@ const BLOCK_COST: f32 = 0.5;
 const PARALLEL: usize = 8192;
 
 /// Turns runs of primitives into leaves.
-pub(crate) trait LeafMaker {
+pub(crate) trait LeafMaker: Sync {
     /// Primitives in one block.
     const WIDTH: u32;
     /// Blocks in one leaf.
     const MAX_BLOCKS: u32;
-    /// A leaf of these primitives.
-    fn make(&mut self, ids: &[u32]) -> Child;
+    /// What leaves are made of.
+    type Block: Copy + Send;
+    /// A block to be overwritten.
+    const EMPTY: Self::Block;
+    /// A leaf of these primitives. Its blocks, one for each [`WIDTH`](Self::WIDTH) of them, are
+    /// `blocks`, the first of which has the number `first`.
+    fn make(&self, ids: &[u32], blocks: &mut [Self::Block], first: usize) -> Child;
 }
 
 /// What is known of a binary node.
@@ -37,19 +44,21 @@ struct Plan {
     count: u32,
 }
 
-/// Collapses a binary tree; appends its nodes, each before its children, and returns the root.
+/// Collapses a binary tree. Returns its nodes, each before its children, the blocks of its leaves, and
+/// the root; nodes and blocks are to be numbered from `first` on.
 pub(crate) fn collapse<M: LeafMaker>(
     binary: &[BinaryNode],
     prims: &[Prim],
-    maker: &mut M,
-    nodes: &mut Vec<Node>,
-) -> Child {
+    maker: &M,
+    first: Size,
+) -> (Vec<Node>, Vec<M::Block>, Child) {
     let plans = plan_all::<M>(binary);
-    Emitter { binary, prims, plans: &plans, nodes, ids: Vec::new() }.emit(0, maker)
+    Emitter { binary, prims, plans: &plans, maker }.emit_all(first)
 }
 
 fn plan_all<M: LeafMaker>(binary: &[BinaryNode]) -> Vec<Plan> {
-    let mut plans = vec![Plan { cost: [0.0; 7], share: [0; 8], count: 0 }; binary.len()];
+    let mut plans = with_capacity(binary.len());
+    plans.resize(binary.len(), Plan { cost: [0.0; 7], share: [0; 8], count: 0 });
     plan_subtree::<M>(binary, &mut plans);
     plans
 }
@@ -112,35 +121,147 @@ fn inner_plan<M: LeafMaker>(node: &BinaryNode, left: &Plan, right: &Plan) -> Pla
     Plan { cost, share, count }
 }
 
-struct Emitter<'a> {
+/// Numbers of nodes and blocks.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Size {
+    pub nodes: usize,
+    pub blocks: usize,
+}
+
+impl Size {
+    fn plus(self, other: Self) -> Self {
+        Self { nodes: self.nodes + other.nodes, blocks: self.blocks + other.blocks }
+    }
+}
+
+/// Room for the nodes and blocks of a subtree, the number of the first of each, and how many are in use.
+struct Room<'a, B> {
+    nodes: &'a mut [Node],
+    blocks: &'a mut [B],
+    first: Size,
+    used: Size,
+}
+
+/// A subtree that one thread emits, and the place of the reference to it.
+struct Task {
+    binary: usize,
+    parent: usize,
+    place: usize,
+    size: Size,
+}
+
+struct Emitter<'a, M> {
     binary: &'a [BinaryNode],
     prims: &'a [Prim],
     plans: &'a [Plan],
-    nodes: &'a mut Vec<Node>,
-    ids: Vec<u32>,
+    maker: &'a M,
 }
 
-impl Emitter<'_> {
-    fn emit<M: LeafMaker>(&mut self, i: usize, maker: &mut M) -> Child {
-        if self.plans[i].share[0] == 0 {
-            self.ids.clear();
-            self.collect_ids(i);
-            self.ids.sort_unstable();
-            return maker.make(&self.ids);
+impl<M: LeafMaker> Emitter<'_, M> {
+    /// First the nodes near the root, then, side by side, the subtrees below them.
+    fn emit_all(&self, first: Size) -> (Vec<Node>, Vec<M::Block>, Child) {
+        let (mut nodes, mut tasks) = (Vec::new(), Vec::new());
+        if self.is_small(0) {
+            let task = Task { binary: 0, parent: 0, place: 0, size: Size::default() };
+            tasks.push(task);
+        } else {
+            self.emit_top(0, first.nodes, &mut nodes, &mut tasks);
         }
+        tasks.par_iter_mut().for_each(|t| t.size = self.size(t.binary));
+        let top = Size { nodes: nodes.len(), blocks: 0 };
+        let all = tasks.iter().fold(top, |sum, t| sum.plus(t.size));
+        let mut out_nodes = with_capacity(all.nodes);
+        out_nodes.append(&mut nodes);
+        out_nodes.resize(all.nodes, Node::EMPTY);
+        let mut out_blocks = with_capacity(all.blocks);
+        out_blocks.resize(all.blocks, M::EMPTY);
+        let (top_nodes, mut free_nodes) = out_nodes.split_at_mut(top.nodes);
+        let mut free_blocks = out_blocks.as_mut_slice();
+        let mut begin = first.plus(top);
+        let mut rooms = Vec::with_capacity(tasks.len());
+        for t in &tasks {
+            let (nodes, behind_nodes) = free_nodes.split_at_mut(t.size.nodes);
+            let (blocks, behind_blocks) = free_blocks.split_at_mut(t.size.blocks);
+            (free_nodes, free_blocks) = (behind_nodes, behind_blocks);
+            rooms.push((t, Room { nodes, blocks, first: begin, used: Size::default() }));
+            begin = begin.plus(t.size);
+        }
+        let roots: Vec<Child> = rooms
+            .par_iter_mut()
+            .map_init(Vec::new, |ids, (task, room)| self.emit(task.binary, room, ids))
+            .collect();
+        for (task, &root) in tasks.iter().zip(&roots) {
+            if let Some(node) = top_nodes.get_mut(task.parent) {
+                node.children[task.place] = root;
+            }
+        }
+        let root = if top.nodes == 0 { roots[0] } else { Child::node(first.nodes) };
+        (out_nodes, out_blocks, root)
+    }
+
+    /// Whether a subtree is a task by itself.
+    fn is_small(&self, i: usize) -> bool {
+        self.plans[i].share[0] == 0 || (self.plans[i].count as usize) < PARALLEL
+    }
+
+    /// Emits node `i` and, of the nodes below it, those that are no tasks by themselves.
+    fn emit_top(&self, i: usize, first: usize, nodes: &mut Vec<Node>, tasks: &mut Vec<Task>) -> Child {
+        let at = nodes.len();
+        nodes.push(Node::EMPTY);
+        let (places, used) = self.children(i);
+        for (place, &below) in places[..used].iter().enumerate() {
+            let child = if self.is_small(below) {
+                tasks.push(Task { binary: below, parent: at, place, size: Size::default() });
+                Child::NONE
+            } else {
+                self.emit_top(below, first, nodes, tasks)
+            };
+            nodes[at].set(place, &self.binary[below].bounds(), child);
+        }
+        Child::node(first + at)
+    }
+
+    /// What [`emit`](Self::emit) will use.
+    fn size(&self, i: usize) -> Size {
+        if self.plans[i].share[0] == 0 {
+            return Size { nodes: 0, blocks: self.plans[i].count.div_ceil(M::WIDTH) as usize };
+        }
+        let (places, used) = self.children(i);
+        let below = places[..used].iter().map(|&i| self.size(i));
+        below.fold(Size { nodes: 1, blocks: 0 }, Size::plus)
+    }
+
+    fn emit(&self, i: usize, room: &mut Room<M::Block>, ids: &mut Vec<u32>) -> Child {
+        if self.plans[i].share[0] == 0 {
+            ids.clear();
+            self.collect_ids(i, ids);
+            ids.sort_unstable();
+            let first = room.used.blocks;
+            room.used.blocks += ids.len().div_ceil(M::WIDTH as usize);
+            let blocks = &mut room.blocks[first..room.used.blocks];
+            return self.maker.make(ids, blocks, room.first.blocks + first);
+        }
+        let at = room.used.nodes;
+        room.used.nodes += 1;
+        let (places, used) = self.children(i);
+        for (place, &below) in places[..used].iter().enumerate() {
+            let child = self.emit(below, room, ids);
+            room.nodes[at].set(place, &self.binary[below].bounds(), child);
+        }
+        Child::node(room.first.nodes + at)
+    }
+
+    /// The binary nodes that become the children of the wide node made of `i`, and how many they are.
+    fn children(&self, i: usize) -> ([usize; 8], usize) {
         let [left, right] = self.binary[i].children(i);
         let share = self.plans[i].share[7] as usize;
         let (mut places, mut used) = ([0usize; 8], 0);
         self.gather(left, share, &mut places, &mut used);
         self.gather(right, 8 - share, &mut places, &mut used);
-        let at = self.nodes.len();
-        self.nodes.push(Node::EMPTY);
-        for (place, &below) in places[..used].iter().enumerate() {
-            let child = self.emit(below, maker);
-            let bounds = self.binary[below].bounds();
-            self.nodes[at].set(place, &bounds, child);
-        }
-        Child::node(at)
+        // The largest first: that is where a ray that asks for any hit is most likely to find one.
+        let area = |i: &usize| self.binary[*i].bounds().half_area();
+        places[..used].sort_unstable_by(|a, b| area(b).total_cmp(&area(a)));
+        (places, used)
     }
 
     /// The binary nodes that become children when the subtree of `i` gets `k` places.
@@ -158,13 +279,13 @@ impl Emitter<'_> {
         }
     }
 
-    fn collect_ids(&mut self, i: usize) {
+    fn collect_ids(&self, i: usize, ids: &mut Vec<u32>) {
         if let Some(range) = self.binary[i].prims() {
-            self.ids.extend(self.prims[range].iter().map(Prim::id));
+            ids.extend(self.prims[range].iter().map(Prim::id));
         } else {
             let [left, right] = self.binary[i].children(i);
-            self.collect_ids(left);
-            self.collect_ids(right);
+            self.collect_ids(left, ids);
+            self.collect_ids(right, ids);
         }
     }
 }

@@ -10,8 +10,9 @@ mod reinsert;
 
 pub(crate) use binary::Prim;
 pub(crate) use binned::split_all;
-pub(crate) use collapse::{LeafMaker, collapse};
+pub(crate) use collapse::{LeafMaker, Size, collapse};
 
+use crate::pages::with_capacity;
 use crate::soup::Soup;
 use crate::wide::{Block, Box3, Child, WideTree};
 use rayon::prelude::*;
@@ -47,23 +48,26 @@ pub(crate) fn build_triangles(soup: &Soup, builder: Builder) -> (WideTree, usize
         // A tree that has become too deep is left as it was.
         binary = reinsert::improve(&binary, TRIANGLE_DEPTH).unwrap_or(binary);
     }
-    let mut maker = BlockMaker { soup, blocks: Vec::new() };
-    let mut nodes = Vec::new();
-    let root = collapse(&binary, &prims, &mut maker, &mut nodes);
+    let (nodes, blocks, root) = collapse(&binary, &prims, &BlockMaker { soup }, Size::default());
     let bounds = binary[0].bounds();
-    (WideTree { nodes, blocks: maker.blocks, root, bounds }, skipped)
+    (WideTree { nodes, blocks, root, bounds }, skipped)
 }
 
 fn triangle_prims(soup: &Soup) -> Vec<Prim> {
     let prim = |id: u32| {
         let c = soup.corners(id);
-        is_traceable(&c).then(|| Prim::new(&Box3::of(&c), id))
+        if is_traceable(&c) { Prim::new(&Box3::of(&c), id) } else { Prim::NONE }
     };
-    (0..soup.triangles.len() as u32).into_par_iter().filter_map(prim).collect()
+    let ids = 0..soup.triangles.len() as u32;
+    let mut prims = with_capacity(ids.len());
+    // In place; a parallel filter would have to collect everything twice.
+    prims.par_extend(ids.into_par_iter().map(prim));
+    prims.retain(|p| p.id() != Prim::NONE.id());
+    prims
 }
 
 /// Whether a triangle is finite and has an area.
-fn is_traceable(c: &[[f32; 3]; 3]) -> bool {
+pub(crate) fn is_traceable(c: &[[f32; 3]; 3]) -> bool {
     let v = c.map(|p| indigo_math::Vec3d::from(p.map(f64::from)));
     let area = (v[1] - v[0]).cross(v[2] - v[0]).length2();
     c.iter().flatten().all(|x| x.is_finite()) && area > 0.0
@@ -72,22 +76,20 @@ fn is_traceable(c: &[[f32; 3]; 3]) -> bool {
 /// Makes leaves of triangle blocks.
 struct BlockMaker<'a> {
     soup: &'a Soup<'a>,
-    blocks: Vec<Block>,
 }
 
 impl LeafMaker for BlockMaker<'_> {
     const WIDTH: u32 = 8;
     const MAX_BLOCKS: u32 = crate::wide::MAX_LEAF_BLOCKS;
+    type Block = Block;
+    const EMPTY: Block = Block::EMPTY;
 
-    fn make(&mut self, ids: &[u32]) -> Child {
-        let first = self.blocks.len();
-        for chunk in ids.chunks(8) {
-            let mut block = Block::EMPTY;
+    fn make(&self, ids: &[u32], blocks: &mut [Block], first: usize) -> Child {
+        for (block, chunk) in blocks.iter_mut().zip(ids.chunks(8)) {
             for (place, &id) in chunk.iter().enumerate() {
                 block.set(place, &self.soup.corners(id), id);
             }
-            self.blocks.push(block);
         }
-        Child::leaf(first, (self.blocks.len() - first) as u32)
+        Child::leaf(first, blocks.len() as u32)
     }
 }

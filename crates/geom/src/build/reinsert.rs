@@ -6,6 +6,7 @@
 //! an earlier one changed.
 
 use super::binary::BinaryNode;
+use crate::pages::with_capacity;
 use crate::wide::Box3;
 use rayon::prelude::*;
 
@@ -16,6 +17,8 @@ const CANDIDATES: f64 = 0.25;
 
 const ROOT: u32 = 0;
 const NONE: u32 = u32::MAX;
+/// In [`Node::link`]: the node is a leaf.
+const LEAF: u32 = 1 << 31;
 
 /// The better tree, or `None` where it would be deeper than `max_depth`.
 pub(crate) fn improve(binary: &[BinaryNode], max_depth: u32) -> Option<Vec<BinaryNode>> {
@@ -27,12 +30,28 @@ pub(crate) fn improve(binary: &[BinaryNode], max_depth: u32) -> Option<Vec<Binar
     tree.in_order(binary, max_depth)
 }
 
-/// The tree with links both ways. Leaves keep the index of their binary node.
+/// A node with links both ways; half a cache line, so that one line holds both children of a parent.
+#[derive(Clone, Copy)]
+#[repr(C, align(32))]
+struct Node {
+    bounds: Box3,
+    parent: u32,
+    /// Inner node: the first of its two children, whose place is even. Leaf: [`LEAF`] and the index
+    /// of its binary node.
+    link: u32,
+}
+
+impl Node {
+    /// The first of two children; `None` for a leaf.
+    #[inline(always)]
+    fn first_child(&self) -> Option<u32> {
+        (self.link & LEAF == 0).then_some(self.link)
+    }
+}
+
+/// The tree: the root in place 0, nothing in place 1, then pairs of siblings.
 struct Tree {
-    bounds: Vec<Box3>,
-    parents: Vec<u32>,
-    /// Both children; [`NONE`] on leaves.
-    children: Vec<[u32; 2]>,
+    nodes: Vec<Node>,
 }
 
 /// A subtree to be moved beside another.
@@ -46,42 +65,57 @@ struct Move {
 
 impl Tree {
     fn new(binary: &[BinaryNode]) -> Self {
-        let mut parents = vec![NONE; binary.len()];
-        let mut children = vec![[NONE; 2]; binary.len()];
-        for (i, node) in binary.iter().enumerate() {
+        let mut nodes = with_capacity(binary.len() + 1);
+        let empty = Node { bounds: Box3::EMPTY, parent: NONE, link: LEAF };
+        nodes.resize(2, empty);
+        // Binary node, the place for it, and its parent.
+        let mut stack = vec![(0, ROOT, NONE)];
+        while let Some((i, place, parent)) = stack.pop() {
+            let node = &binary[i];
+            let mut link = LEAF | i as u32;
             if node.prims().is_none() {
-                children[i] = node.children(i).map(|c| c as u32);
-                children[i].iter().for_each(|&c| parents[c as usize] = i as u32);
+                let [left, right] = node.children(i);
+                link = nodes.len() as u32;
+                nodes.resize(nodes.len() + 2, empty);
+                stack.extend([(right, link + 1, place), (left, link, place)]);
             }
+            nodes[place as usize] = Node { bounds: node.bounds(), parent, link };
         }
-        Self { bounds: binary.iter().map(BinaryNode::bounds).collect(), parents, children }
+        Self { nodes }
+    }
+
+    #[inline(always)]
+    fn node(&self, i: u32) -> &Node {
+        &self.nodes[i as usize]
     }
 
     fn parent(&self, i: u32) -> u32 {
-        self.parents[i as usize]
+        self.node(i).parent
     }
 
     fn area(&self, i: u32) -> f32 {
-        self.bounds[i as usize].half_area()
+        self.node(i).bounds.half_area()
     }
 
-    fn sibling(&self, i: u32) -> u32 {
-        let [a, b] = self.children[self.parent(i) as usize];
-        if a == i { b } else { a }
+    /// The other child of the parent; not for the root.
+    fn sibling(i: u32) -> u32 {
+        i ^ 1
     }
 
     fn find_moves(&self) -> Vec<Move> {
-        let mut candidates: Vec<(f32, u32)> =
-            (1..self.bounds.len() as u32).map(|i| (self.area(i), i)).collect();
+        let areas = (2..self.nodes.len() as u32).into_par_iter().map(|i| (self.area(i), i));
+        let mut candidates: Vec<(f32, u32)> = areas.collect();
         let wanted = (candidates.len() as f64 * CANDIDATES) as usize;
         if wanted == 0 {
             return Vec::new();
         }
         candidates.select_nth_unstable_by(wanted, |a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        candidates.truncate(wanted);
+        // Neighbours in the tree look at the same nodes.
+        candidates.par_sort_unstable_by_key(|c| c.1);
         let search = |stack: &mut Vec<_>, &(_, node): &(f32, u32)| self.best_move(node, stack);
-        let mut moves: Vec<Move> =
-            candidates[..wanted].par_iter().map_init(Vec::new, search).flatten().collect();
-        moves.sort_unstable_by(|a, b| b.gain.total_cmp(&a.gain).then(a.node.cmp(&b.node)));
+        let mut moves: Vec<Move> = candidates.par_iter().map_init(Vec::new, search).flatten().collect();
+        moves.par_sort_unstable_by(|a, b| b.gain.total_cmp(&a.gain).then(a.node.cmp(&b.node)));
         moves
     }
 
@@ -94,12 +128,12 @@ impl Tree {
         if parent == ROOT {
             return None;
         }
-        let (node_bounds, node_area) = (self.bounds[node as usize], self.area(node));
+        let (node_bounds, node_area) = (self.node(node).bounds, self.area(node));
         let mut best = Move { node, beside: NONE, gain: 0.0 };
         // Without the node its parent goes, and the boxes of all above shrink.
         let mut saved = self.area(parent);
-        let mut other = self.sibling(node);
-        let mut shrunk = self.bounds[other as usize];
+        let mut other = Self::sibling(node);
+        let mut shrunk = self.node(other).bounds;
         let mut above = parent;
         loop {
             stack.push((saved, other));
@@ -107,39 +141,41 @@ impl Tree {
                 if saved - node_area <= best.gain {
                     continue;
                 }
-                let gain = saved - self.bounds[at as usize].union(&node_bounds).half_area();
+                let here = self.node(at);
+                let gain = saved - here.bounds.union(&node_bounds).half_area();
                 if gain > best.gain {
                     best = Move { node, beside: at, gain };
                 }
-                let [a, b] = self.children[at as usize];
-                if a != NONE {
-                    let below = gain + self.area(at);
-                    stack.extend([(below, a), (below, b)]);
+                if let Some(first) = here.first_child() {
+                    let below = gain + here.bounds.half_area();
+                    if below - node_area > best.gain {
+                        stack.extend([(below, first), (below, first + 1)]);
+                    }
                 }
             }
             if above != parent {
-                shrunk = shrunk.union(&self.bounds[other as usize]);
+                shrunk = shrunk.union(&self.node(other).bounds);
                 saved += self.area(above) - shrunk.half_area();
             }
             if above == ROOT {
                 break;
             }
-            other = self.sibling(above);
+            other = Self::sibling(above);
             above = self.parent(above);
         }
-        let stays = best.beside == NONE || best.beside == parent || best.beside == self.sibling(node);
+        let stays = best.beside == NONE || best.beside == parent || best.beside == Self::sibling(node);
         (!stays).then_some(best)
     }
 
     fn make_moves(&mut self, moves: &[Move]) {
-        let mut touched = vec![false; self.bounds.len()];
+        let mut touched = vec![false; self.nodes.len()];
         for m in moves {
             let parent = self.parent(m.node);
             if parent == ROOT || m.beside == ROOT {
                 continue;
             }
             let involved =
-                [m.node, parent, self.parent(parent), self.sibling(m.node), m.beside, self.parent(m.beside)];
+                [m.node, parent, self.parent(parent), Self::sibling(m.node), m.beside, self.parent(m.beside)];
             // An earlier move may also have brought the goal below the node itself.
             if involved.iter().any(|&i| touched[i as usize]) || self.is_below(m.beside, m.node) {
                 continue;
@@ -161,38 +197,46 @@ impl Tree {
         false
     }
 
+    /// The sibling takes its parent's place; what stood at the goal takes the sibling's, so that the
+    /// pair can hang below the goal's place.
     fn make_move(&mut self, m: Move) {
-        let (parent, sibling) = (self.parent(m.node), self.sibling(m.node));
-        let grandparent = self.parent(parent);
-        self.replace_child(grandparent, parent, sibling);
-        // The parent that has become free holds the node and its new sibling.
-        let new_above = self.parent(m.beside);
-        self.replace_child(new_above, m.beside, parent);
-        self.children[parent as usize] = [m.beside, m.node];
-        self.parents[m.beside as usize] = parent;
-        self.refit(grandparent);
-        self.refit(parent);
+        let (parent, free) = (self.parent(m.node), Self::sibling(m.node));
+        self.put(free, parent);
+        self.put(m.beside, free);
+        let above = self.parent(m.beside);
+        let bounds = self.node(free).bounds.union(&self.node(m.node).bounds);
+        self.nodes[m.beside as usize] = Node { bounds, parent: above, link: m.node & !1 };
+        self.nodes[free as usize].parent = m.beside;
+        self.nodes[m.node as usize].parent = m.beside;
+        self.refit(self.parent(parent));
+        self.refit(above);
     }
 
-    fn replace_child(&mut self, parent: u32, old: u32, new: u32) {
-        let pair = &mut self.children[parent as usize];
-        pair[usize::from(pair[0] != old)] = new;
-        self.parents[new as usize] = parent;
+    /// Puts a copy of a node and of all below it into another place, which keeps its parent.
+    fn put(&mut self, from: u32, to: u32) {
+        let Node { bounds, link, .. } = *self.node(from);
+        let parent = self.parent(to);
+        let node = Node { bounds, parent, link };
+        self.nodes[to as usize] = node;
+        if let Some(first) = node.first_child() {
+            self.nodes[first as usize].parent = to;
+            self.nodes[first as usize + 1].parent = to;
+        }
     }
 
     /// Makes the boxes from a node up to the root fit again.
     fn refit(&mut self, mut i: u32) {
         while i != NONE {
-            let [a, b] = self.children[i as usize];
-            let fitted = self.bounds[a as usize].union(&self.bounds[b as usize]);
-            self.bounds[i as usize] = fitted;
+            let Some(first) = self.node(i).first_child() else { return };
+            let fitted = self.node(first).bounds.union(&self.node(first + 1).bounds);
+            self.nodes[i as usize].bounds = fitted;
             i = self.parent(i);
         }
     }
 
     /// The tree in pre-order again, or `None` where it is too deep.
     fn in_order(&self, binary: &[BinaryNode], max_depth: u32) -> Option<Vec<BinaryNode>> {
-        let mut out: Vec<BinaryNode> = Vec::with_capacity(binary.len());
+        let mut out: Vec<BinaryNode> = with_capacity(binary.len());
         // Node, its depth, and the place of the parent whose right child it is.
         let mut stack = vec![(ROOT, 0, NONE)];
         while let Some((i, depth, right_of)) = stack.pop() {
@@ -204,13 +248,13 @@ impl Tree {
                 let above = right_of as usize;
                 out[above] = BinaryNode::inner(&out[above].bounds(), at - above);
             }
-            let [a, b] = self.children[i as usize];
-            if a == NONE {
-                out.push(binary[i as usize]);
+            let node = self.node(i);
+            if let Some(first) = node.first_child() {
+                out.push(BinaryNode::inner(&node.bounds, 0));
+                stack.push((first + 1, depth + 1, at as u32));
+                stack.push((first, depth + 1, NONE));
             } else {
-                out.push(BinaryNode::inner(&self.bounds[i as usize], 0));
-                stack.push((b, depth + 1, at as u32));
-                stack.push((a, depth + 1, NONE));
+                out.push(binary[(node.link & !LEAF) as usize]);
             }
         }
         Some(out)

@@ -5,13 +5,17 @@
 //! Ray/Triangle Intersection", JCGT 2(1), 2013; an edge function of exactly 0 counts as inside on
 //! both sides, so no fallback to double precision is needed for watertightness.
 
-use super::raw::{ROW, Stack, block_at, node_at, place, row_at};
+use super::raw::{ROW, Stack, block_at, node_at, place, prefetch, row_at};
+use crate::build::{TOP_DEPTH, TRIANGLE_DEPTH};
 use crate::ray::Ray;
 use crate::wide::{Block, Child, Node};
 use indigo_math::Float;
 
-/// Entries of the traversal stack; a tree that could need more is not traversed but rebuilt.
+/// Entries of the traversal stack; no builder makes a tree that could need more.
 pub(crate) const STACK_SIZE: usize = 640;
+
+/// A node leaves at most seven children behind, and holds an eighth for a moment.
+const _: () = assert!(7 * (TRIANGLE_DEPTH + TOP_DEPTH) as usize + 1 <= STACK_SIZE);
 
 /// A scalar of which the order of non-negative values is the order of the upper bits.
 pub(crate) trait KeyBits: Float {
@@ -269,7 +273,7 @@ pub(super) fn walk<L: Lanes, const ANY: bool, S: Specials<L::Scalar>>(
                 alive = false;
                 break;
             }
-            (current, top) = descend::<L, ANY>(node, enter, mask, &mut stack, top);
+            (current, top) = descend::<L, ANY>(view, node, enter, mask, &mut stack, top);
         }
         if alive {
             let changed = if S::PRESENT && current.blocks() == 0 {
@@ -303,6 +307,7 @@ pub(super) fn walk<L: Lanes, const ANY: bool, S: Specials<L::Scalar>>(
 /// child and the stack's new height.
 #[inline(always)]
 fn descend<L: Lanes, const ANY: bool>(
+    view: View,
     node: &Node,
     enter: L,
     mask: u32,
@@ -317,7 +322,9 @@ fn descend<L: Lanes, const ANY: bool>(
     }
     if ANY {
         while rest != 0 {
-            stack.put(top, u64::from(child(rest.trailing_zeros() as usize).0));
+            let later = child(rest.trailing_zeros() as usize);
+            prefetch(view.nodes, view.blocks, later);
+            stack.put(top, u64::from(later.0));
             top += 1;
             rest &= rest - 1;
         }
@@ -329,6 +336,7 @@ fn descend<L: Lanes, const ANY: bool>(
     rest &= rest - 1;
     let (nearer, farther) = if a < b { (a, b) } else { (b, a) };
     stack.put(top, farther);
+    prefetch(view.nodes, view.blocks, Child(farther as u32));
     if rest == 0 {
         return (Child(nearer as u32), top + 1);
     }
@@ -336,7 +344,9 @@ fn descend<L: Lanes, const ANY: bool>(
     stack.put(top + 1, nearer);
     top += 2;
     while rest != 0 {
-        stack.put_sorted(base, top, entry(rest.trailing_zeros() as usize));
+        let another = entry(rest.trailing_zeros() as usize);
+        prefetch(view.nodes, view.blocks, Child(another as u32));
+        stack.put_sorted(base, top, another);
         top += 1;
         rest &= rest - 1;
     }

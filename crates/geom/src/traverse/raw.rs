@@ -22,7 +22,7 @@ pub(super) fn place<T, const N: usize>(array: &[T; N], i: usize) -> &T {
 pub(super) fn node_at(nodes: &[Node], child: Child) -> &Node {
     debug_assert!((child.0 as usize) < nodes.len());
     // SAFETY: a `View` is only made of trees whose children all lie inside it (builders make it so,
-    // `cache` checks it), and unused places have empty boxes, which no ray meets.
+    // `cache` checks it). Unused places hold `Child::NONE`, which is no inner child.
     unsafe { nodes.get_unchecked(child.0 as usize) }
 }
 
@@ -45,6 +45,26 @@ pub(super) fn block_at(blocks: &[Block], leaf: Child, i: u32) -> &Block {
     debug_assert!(index < blocks.len());
     // SAFETY: as for `node_at`: leaf ranges lie inside the blocks.
     unsafe { blocks.get_unchecked(index) }
+}
+
+/// Asks for what a child holds, which a ray will look at later.
+#[inline(always)]
+pub(super) fn prefetch(nodes: &[Node], blocks: &[Block], child: Child) {
+    #[cfg(target_arch = "x86_64")]
+    {
+        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        let (base, at, lines) = if child.is_leaf() {
+            (blocks.as_ptr().cast::<i8>(), child.first() as usize * size_of::<Block>(), 5)
+        } else {
+            (nodes.as_ptr().cast::<i8>(), child.0 as usize * size_of::<Node>(), 4)
+        };
+        for line in 0..lines {
+            // SAFETY: a prefetch of any address does nothing but move memory into the cache.
+            unsafe { _mm_prefetch::<_MM_HINT_T0>(base.wrapping_add(at + 64 * line)) };
+        }
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = (nodes, blocks, child);
 }
 
 /// Children still to be visited: entry distance in the upper half, child in the lower.
