@@ -117,7 +117,7 @@ mod tests {
         let weights: Vec<f64> = (0..n).map(|i| if i % 2 == 0 { 1.0 } else { 19.0 }).collect();
         let table = AliasTable::new(&weights);
         let all = 1u32 << 24;
-        let rare = (0..all).filter(|&u| table.sample(u as Real / all as Real).0 % 2 == 0).count();
+        let rare = (0..all).filter(|&u| table.sample(u as Real / all as Real).0.is_multiple_of(2)).count();
         let share = rare as f64 / f64::from(all);
         assert!((share - 0.05).abs() < 1e-4, "{share}");
     }

@@ -15,7 +15,7 @@ use indigo_math::Float;
 pub(crate) const STACK_SIZE: usize = 640;
 
 /// A node leaves at most seven children behind, and holds an eighth for a moment.
-const _: () = assert!(7 * (TRIANGLE_DEPTH + TOP_DEPTH) as usize + 1 <= STACK_SIZE);
+const _: () = assert!(7 * (TRIANGLE_DEPTH + TOP_DEPTH) < STACK_SIZE as u32);
 
 /// A scalar of which the order of non-negative values is the order of the upper bits.
 pub(crate) trait KeyBits: Float {
