@@ -48,6 +48,18 @@ impl Console {
         }
     }
 
+    /// Writes what was asked for to standard output; whether it arrived there. If not, says so.
+    pub fn answer(&mut self, text: &str) -> bool {
+        let mut out = std::io::stdout().lock();
+        match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+            Ok(()) => true,
+            Err(error) => {
+                self.say(&format!("error: cannot write to standard output: {error}"));
+                false
+            }
+        }
+    }
+
     /// Renews the progress line on a terminal; a line of its own elsewhere.
     pub fn progress(&mut self, text: &str) {
         if !self.terminal {

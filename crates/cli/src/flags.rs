@@ -3,14 +3,15 @@
 //! Long options of one dash are the manual's; each also works with two. Options may stand before or
 //! after the scene.
 
+use indigo_scene::Override;
 use std::ffi::OsString;
 use std::fmt::Write as _;
 
 /// What an option does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
-    /// Sets a setting of `renderer_settings` to the option's value.
-    Setting(&'static str),
+    /// The option, for messages, sets a setting of `renderer_settings` to its value.
+    Setting(&'static str, &'static str),
     /// Sets the number of threads.
     Threads,
     /// Names the random sequence.
@@ -52,24 +53,29 @@ const fn flag(name: &'static str, value: Option<&'static str>, action: Action, d
 
 /// All options.
 pub static FLAGS: &[Flag] = &[
-    flag("halt", Some("SECONDS"), Action::Setting("halt_time"), "Stop after this time of rendering."),
+    flag(
+        "halt",
+        Some("SECONDS"),
+        Action::Setting("-halt", "halt_time"),
+        "Stop after this time of rendering.",
+    ),
     flag(
         "haltspp",
         Some("N"),
-        Action::Setting("halt_samples_per_pixel"),
-        "Stop at this number of samples per pixel.",
+        Action::Setting("-haltspp", "halt_samples_per_pixel"),
+        "Stop at this number of samples per pixel, or a little above it.",
     ),
     flag(
         "o",
         Some("PATH"),
         Action::Output,
-        "Write the picture to PATH (.png); other files take the same stem. Without it: renders/im_<UTC time>_<scene>.png.",
+        "Write the picture to PATH (.png, which may be left out); other files take the same stem. Without it: renders/im_<UTC time>_<scene>.png.",
     ),
     flag(
         "t",
         Some("N"),
         Action::Threads,
-        "Render with N threads. Without it: as many as there are logical cores.",
+        "Render with N threads, at most 1024. Without it: as many as there are logical cores.",
     ),
     flag(
         "seed",
@@ -110,8 +116,8 @@ const NOT_YET: &[&str] = &["h", "n", "p", "r", "ptest", "pack"];
 pub struct Arguments {
     /// The scene.
     pub scene: Option<String>,
-    /// Settings, by name and text.
-    pub settings: Vec<(&'static str, String)>,
+    /// Settings.
+    pub settings: Vec<Override<'static>>,
     /// Seed of the random sequence.
     pub seed: u64,
     /// Path of the picture.
@@ -184,10 +190,11 @@ fn find(name: &str) -> Result<&'static Flag, String> {
 fn apply(flag: &Flag, value: String, parsed: &mut Arguments) -> Result<(), String> {
     match flag.action {
         // The setting's own declaration checks the value.
-        Action::Setting(name) => parsed.settings.push((name, value)),
+        Action::Setting(option, setting) => parsed.settings.push(Override { option, setting, value }),
         Action::Threads => {
-            parsed.settings.push(("num_threads", value));
-            parsed.settings.push(("auto_choose_num_threads", "false".to_owned()));
+            parsed.settings.push(Override { option: "-t", setting: "num_threads", value });
+            let implied = "auto_choose_num_threads";
+            parsed.settings.push(Override { option: "", setting: implied, value: "false".to_owned() });
         }
         Action::Seed => {
             parsed.seed = value
@@ -259,10 +266,14 @@ mod tests {
         assert_eq!(a.scene.as_deref(), Some("a.igs"));
         assert_eq!(a.output.as_deref(), Some("x.png"));
         assert_eq!(a.seed, 7);
-        let settings: Vec<_> = a.settings.iter().map(|(n, v)| (*n, v.as_str())).collect();
+        let settings: Vec<_> = a.settings.iter().map(|s| (s.option, s.setting, s.value.as_str())).collect();
         assert_eq!(
             settings,
-            [("halt_samples_per_pixel", "64"), ("num_threads", "2"), ("auto_choose_num_threads", "false")]
+            [
+                ("-haltspp", "halt_samples_per_pixel", "64"),
+                ("-t", "num_threads", "2"),
+                ("", "auto_choose_num_threads", "false")
+            ]
         );
     }
 

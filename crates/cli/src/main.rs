@@ -8,7 +8,7 @@ mod render;
 
 use console::Console;
 use flags::Arguments;
-use indigo_diag::{Severity, Style, to_json, to_text};
+use indigo_diag::{Diagnostic, Severity, Style, summary_to_json, to_json, to_text};
 use indigo_igs::Limits;
 use indigo_render::disk::{DiskResolver, DiskTreeStore};
 use indigo_render::pool::with_jobs;
@@ -43,12 +43,10 @@ fn main() -> ExitCode {
 
 fn run(arguments: &Arguments, console: &mut Console) -> u8 {
     if arguments.help {
-        print!("{}", flags::help());
-        return RENDERED;
+        return answer(&flags::help(), console);
     }
     if arguments.version {
-        println!("{VERSION}");
-        return RENDERED;
+        return answer(&format!("{VERSION}\n"), console);
     }
     if let Some(path) = &arguments.dump_metadata {
         return dump_metadata(path, console);
@@ -57,30 +55,41 @@ fn run(arguments: &Arguments, console: &mut Console) -> u8 {
         console.say("error: no scene is given: indigo_console SCENE.igs [options]; --help lists all options");
         return BAD_INPUT;
     };
+    let renders = !arguments.check && !arguments.print_settings;
+    let named = match arguments.output.as_deref().filter(|_| renders).map(paths::picture_named).transpose() {
+        Ok(named) => named,
+        Err(reason) => {
+            console.say(&format!("error: -o {}: {reason}", arguments.output.as_deref().unwrap_or_default()));
+            return BAD_INPUT;
+        }
+    };
     let loaded = load_scene(scene, arguments);
     if let Some(settings) = &loaded.settings
         && settings.bool("logging")
-        && !arguments.check
-        && !arguments.print_settings
+        && renders
     {
         console.log_to(std::path::Path::new("log.txt"));
     }
-    report(&loaded, arguments.json, console);
-    if arguments.print_settings {
-        print_settings(&loaded);
-        return if loaded.sink.has_errors() { BAD_INPUT } else { RENDERED };
+    if arguments.json {
+        if !console.answer(&json_report(scene, &loaded)) {
+            return FAILED;
+        }
+    } else {
+        report(scene, &loaded, arguments.check, console);
+    }
+    if arguments.print_settings && answer(&settings_listing(&loaded), console) != RENDERED {
+        return FAILED;
     }
     match loaded.scene {
-        Some(scene) => render::render(scene, arguments, console),
-        None if loaded.sink.has_errors() => {
-            console.say(&format!("{scene}: {}", count(loaded.sink.error_count(), "error")));
-            BAD_INPUT
-        }
-        None => {
-            console.say(&format!("{scene}: no errors"));
-            RENDERED
-        }
+        Some(scene) => render::render(scene, arguments, named, console),
+        None if loaded.sink.has_errors() => BAD_INPUT,
+        None => RENDERED,
     }
+}
+
+/// Writes what was asked for; the exit status.
+fn answer(text: &str, console: &mut Console) -> u8 {
+    if console.answer(text) { RENDERED } else { FAILED }
 }
 
 fn load_scene(path: &str, arguments: &Arguments) -> Loaded {
@@ -98,32 +107,41 @@ fn load_scene(path: &str, arguments: &Arguments) -> Loaded {
     with_jobs(render::logical_cores(), || load(path, &options))
 }
 
-/// Says everything that was found in the scene, errors last so that they are seen.
-fn report(loaded: &Loaded, json: bool, console: &mut Console) {
-    let style = if console.is_coloured() { Style::Colour } else { Style::Plain };
+/// Everything that was found in the scene, errors last so that they are seen.
+fn found(loaded: &Loaded) -> Vec<&Diagnostic> {
     let mut found: Vec<_> = loaded.sink.diagnostics().iter().collect();
     found.sort_by_key(|d| d.severity == Severity::Error);
-    for diagnostic in found {
-        if json {
-            println!("{}", to_json(diagnostic, &loaded.sources));
-        } else {
-            console.say(to_text(diagnostic, &loaded.sources, style).trim_end());
-        }
+    found
+}
+
+fn report(scene: &str, loaded: &Loaded, is_check: bool, console: &mut Console) {
+    let style = if console.is_coloured() { Style::Colour } else { Style::Plain };
+    for diagnostic in found(loaded) {
+        console.say(to_text(diagnostic, &loaded.sources, style).trim_end());
     }
     if loaded.sink.dropped() > 0 {
         console.say(&format!("... and {} more", loaded.sink.dropped()));
     }
+    if loaded.sink.has_errors() {
+        console.say(&format!("{scene}: {}", count(loaded.sink.error_count(), "error")));
+    } else if is_check {
+        console.say(&format!("{scene}: no errors"));
+    }
+}
+
+/// The same as a line of JSON each, and a summary.
+fn json_report(scene: &str, loaded: &Loaded) -> String {
+    let lines = found(loaded).into_iter().map(|d| to_json(d, &loaded.sources));
+    lines.chain([summary_to_json(scene, &loaded.sink)]).map(|line| line + "\n").collect()
 }
 
 fn count(n: usize, what: &str) -> String {
     format!("{n} {what}{}", if n == 1 { "" } else { "s" })
 }
 
-fn print_settings(loaded: &Loaded) {
-    let Some(settings) = &loaded.settings else { return };
-    for line in settings.listing() {
-        println!("{:<28} {:<24} ({})", line.name, line.value, line.origin.words());
-    }
+fn settings_listing(loaded: &Loaded) -> String {
+    let lines = loaded.settings.iter().flat_map(indigo_scene::Settings::listing);
+    lines.map(|line| format!("{:<28} {:<24} ({})\n", line.name, line.value, line.origin.words())).collect()
 }
 
 fn dump_metadata(path: &str, console: &mut Console) -> u8 {
@@ -132,10 +150,8 @@ fn dump_metadata(path: &str, console: &mut Console) -> u8 {
         .and_then(|bytes| indigo_imaging::png::read_metadata(&bytes).map_err(|e| e.to_string()));
     match entries {
         Ok(entries) => {
-            for (key, value) in entries {
-                println!("{key}: {value}");
-            }
-            RENDERED
+            let lines: String = entries.iter().map(|(key, value)| format!("{key}: {value}\n")).collect();
+            answer(&lines, console)
         }
         Err(error) => {
             console.say(&format!("error: {path}: {error}"));

@@ -5,8 +5,9 @@ use crate::flags::Arguments;
 use crate::{FAILED, RENDERED, VERSION, paths};
 use indigo_render::output::{OutputPaths, SaveError, SaveJob, Saving};
 use indigo_render::{Event, Halt, HaltReason, Options, Progress, Session};
+use indigo_scene::schema::settings::MOST_THREADS;
 use indigo_scene::{OutputSettings, Scene};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant, SystemTime};
@@ -24,22 +25,27 @@ pub fn logical_cores() -> usize {
 }
 
 /// Renders a scene; the exit status.
-pub fn render(scene: Scene, arguments: &Arguments, console: &mut Console) -> u8 {
+///
+/// `named` is the picture's path, if the user has given one.
+pub fn render(scene: Scene, arguments: &Arguments, named: Option<PathBuf>, console: &mut Console) -> u8 {
     let scene = Arc::new(scene);
     describe(&scene, console);
+    let picture = match Picture::new(named, &scene, arguments, console) {
+        Ok(picture) => picture,
+        Err(error) => {
+            console.say(&format!("error: there can be no picture in renders: {error}"));
+            return FAILED;
+        }
+    };
     let options = Options {
-        threads: scene.output.threads.unwrap_or_else(logical_cores),
+        threads: scene.output.threads.unwrap_or_else(logical_cores).min(MOST_THREADS),
         seed: arguments.seed,
         halt: halt(&scene.output),
         ..Options::default()
     };
-    let png = arguments
-        .output
-        .as_ref()
-        .map_or_else(|| paths::picture_of(&scene.output.scene_path, SystemTime::now()), PathBuf::from);
     let job = SaveJob {
         scene: Arc::clone(&scene),
-        paths: OutputPaths::new(png),
+        paths: OutputPaths::new(picture.path()),
         version: format!("{VERSION}, {} {} build.", std::env::consts::OS, std::env::consts::ARCH),
         threads: options.threads,
         seed: options.seed,
@@ -50,6 +56,36 @@ pub fn render(scene: Scene, arguments: &Arguments, console: &mut Console) -> u8 
         Err(error) => {
             console.say(&format!("error: {error}"));
             FAILED
+        }
+    }
+}
+
+/// Where the picture goes.
+enum Picture {
+    Named(PathBuf),
+    Reserved(paths::Reserved),
+}
+
+impl Picture {
+    fn new(
+        named: Option<PathBuf>,
+        scene: &Scene,
+        arguments: &Arguments,
+        console: &mut Console,
+    ) -> std::io::Result<Self> {
+        let Some(path) = named else {
+            return paths::reserve_picture(&scene.output.scene_path, SystemTime::now()).map(Self::Reserved);
+        };
+        if arguments.output.as_deref().is_some_and(|given| Path::new(given) != path) {
+            console.say(&format!("note: the picture is written to {}", path.display()));
+        }
+        Ok(Self::Named(path))
+    }
+
+    fn path(&self) -> &Path {
+        match self {
+            Self::Named(path) => path,
+            Self::Reserved(reserved) => &reserved.path,
         }
     }
 }
@@ -66,6 +102,16 @@ fn describe(scene: &Scene, console: &mut Console) {
         scene.film.size.width(),
         scene.film.size.height(),
     ));
+    if let Some(metropolis) = scene.transport.metropolis {
+        console.say(&format!(
+            "note: strictly speaking max_num_consec_rejections = {} biases the picture: after so many rejections in a \
+             row a mutation is accepted whatever it is",
+            metropolis.max_consecutive_rejections
+        ));
+    }
+    if let Some(n) = scene.output.halt_samples_per_pixel.filter(|n| n.fract() != 0.0) {
+        console.say(&format!("note: whole samples are taken: halting at {} per pixel, not at {n}", n.ceil()));
+    }
 }
 
 fn halt(output: &OutputSettings) -> Halt {

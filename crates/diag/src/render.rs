@@ -1,6 +1,6 @@
 //! Diagnostics as text for people and as JSON for programs.
 
-use crate::{Diagnostic, Severity, SourceMap};
+use crate::{Diagnostic, Severity, Sink, SourceMap};
 use std::fmt::Write as _;
 
 /// How text is decorated.
@@ -117,6 +117,17 @@ pub fn to_json(diagnostic: &Diagnostic, sources: &SourceMap) -> String {
     out
 }
 
+/// How much was found in a file and what it brings in, as one line of JSON to follow the diagnostics.
+pub fn summary_to_json(file: &str, sink: &Sink) -> String {
+    format!(
+        "{{\"summary\":{{\"file\":{},\"errors\":{},\"warnings\":{},\"not_listed\":{}}}}}",
+        quoted(file),
+        sink.error_count(),
+        sink.warning_count(),
+        sink.dropped()
+    )
+}
+
 fn quoted(text: &str) -> String {
     let mut out = String::from("\"");
     for c in text.chars() {
@@ -163,6 +174,17 @@ mod tests {
             to_json(&d, &sources),
             "{\"severity\":\"warning\",\"code\":\"W0001\",\"file\":\"a.igs\",\"line\":2,\"column\":9,\"message\":\"a \\\"b\\\"\\u000a\",\"notes\":[]}"
         );
+    }
+
+    #[test]
+    fn the_summary_counts_everything() {
+        let (_, span) = map();
+        let mut sink = Sink::new();
+        sink.push(Diagnostic::warning("W0001", span, "a"));
+        (0..Sink::LIMIT).for_each(|_| sink.push(Diagnostic::error("E0203", span, "b")));
+        let expected =
+            "{\"summary\":{\"file\":\"a \\\"b\\\".igs\",\"errors\":1000,\"warnings\":1,\"not_listed\":1}}";
+        assert_eq!(summary_to_json("a \"b\".igs", &sink), expected);
     }
 
     #[test]

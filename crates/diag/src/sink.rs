@@ -88,6 +88,7 @@ impl Diagnostic {
 pub struct Sink {
     diagnostics: Vec<Diagnostic>,
     errors: usize,
+    warnings: usize,
     dropped: usize,
 }
 
@@ -103,6 +104,7 @@ impl Sink {
     /// Takes a diagnostic.
     pub fn push(&mut self, diagnostic: Diagnostic) {
         self.errors += usize::from(diagnostic.severity == Severity::Error);
+        self.warnings += usize::from(diagnostic.severity == Severity::Warning);
         if self.diagnostics.len() < Self::LIMIT {
             self.diagnostics.push(diagnostic);
         } else {
@@ -118,6 +120,11 @@ impl Sink {
     /// How many errors were taken.
     pub fn error_count(&self) -> usize {
         self.errors
+    }
+
+    /// How many warnings were taken.
+    pub fn warning_count(&self) -> usize {
+        self.warnings
     }
 
     /// How many diagnostics were not kept.

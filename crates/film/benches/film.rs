@@ -59,7 +59,7 @@ fn positions(size: FilmSize) {
 }
 
 fn hand_over(size: FilmSize) {
-    let master = MasterFilm::new(size, &LAYERS);
+    let master = MasterFilm::new(size, &LAYERS).unwrap();
     for (name, samples) in [("dense", 1_920_000), ("sparse", 100_000)] {
         let mut deltas: Vec<FilmDelta> = (0..2).map(|_| master.delta()).collect();
         let one = best(|| {

@@ -24,6 +24,22 @@ pub enum FilmError {
         /// Internal pixels per output pixel along one axis.
         super_sample: u32,
     },
+    /// There is not as much memory as the film's sums need.
+    #[error(
+        "the film of a picture of width {width} and height {height} with super_sample_factor {super_sample} needs \
+         {} MiB of memory, which the system does not give",
+        .bytes.div_ceil(1 << 20)
+    )]
+    OutOfMemory {
+        /// Width of the picture in pixels.
+        width: u32,
+        /// Height of the picture in pixels.
+        height: u32,
+        /// Internal pixels per output pixel along one axis.
+        super_sample: u32,
+        /// Bytes of sums and counts.
+        bytes: u64,
+    },
     /// A Mitchell-Netravali parameter is not a number of reasonable size.
     #[error("the filter's blur {blur} and ring {ring} must lie between -10 and 10")]
     FilterParameters {

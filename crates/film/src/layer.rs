@@ -35,6 +35,27 @@ impl Totals {
         self.b_count += other.b_count;
     }
 
+    /// Whether its draws are a Markov chain's: no other layer has brightness estimates.
+    fn is_chain(&self) -> bool {
+        self.b_count > 0.0
+    }
+
+    /// The draws of a film with layers of these totals.
+    ///
+    /// A chain's mutations are draws of their own, and add. All other layers count what one and the same
+    /// draws did (a camera path and the light path drawn with it fill two layers): the largest count is theirs.
+    pub(crate) fn draws<'a>(layers: impl Iterator<Item = &'a Self>) -> f64 {
+        let (mut shared, mut chains) = (0.0_f64, 0.0);
+        for totals in layers {
+            if totals.is_chain() {
+                chains += totals.n_samples;
+            } else {
+                shared = shared.max(totals.n_samples);
+            }
+        }
+        shared + chains
+    }
+
     /// The factor by which a per-screen layer's sums become radiance.
     pub(crate) fn screen_scale(&self, internal_pixels: usize) -> f64 {
         if self.n_samples <= 0.0 {
@@ -74,6 +95,11 @@ impl Layer {
 }
 
 impl LayerKind {
+    /// Bytes of the sums, and of the count if there is one, of a pixel.
+    pub(crate) fn pixel_bytes(self) -> usize {
+        size_of::<[f64; 4]>() + self.count_slots(1) * size_of::<f64>()
+    }
+
     /// How many of `pixels` pixels need a sample count of their own.
     pub(crate) fn count_slots(self, pixels: usize) -> usize {
         match self {

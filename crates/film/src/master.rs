@@ -1,7 +1,7 @@
 //! The film that many workers share: one lock per band of rows.
 
 use crate::band::{BAND_ROWS, RowsMut, add_bricks, band_count, develop_layer};
-use crate::state::{check_fit, samples};
+use crate::state::check_fit;
 use crate::{FilmDelta, FilmError, FilmSize, FilmState, Layer, LayerKind, Totals, XyzImage};
 use std::sync::{Mutex, MutexGuard, PoisonError, RwLock, TryLockError};
 
@@ -39,25 +39,47 @@ struct Tally {
 }
 
 impl MasterFilm {
-    /// A film without samples, with layers of these kinds and names.
-    pub fn new(size: FilmSize, layers: &[(LayerKind, &str)]) -> Self {
+    /// A film without samples, with layers of these kinds and names. Errors: the system has not as much
+    /// memory.
+    pub fn new(size: FilmSize, layers: &[(LayerKind, &str)]) -> Result<Self, FilmError> {
         let width = size.internal_width() as usize;
         let height = size.internal_height() as usize;
-        let bands = (0..band_count(size)).map(|band| {
-            let pixels = width * BAND_ROWS.min(height - band * BAND_ROWS);
-            let layers = layers.iter().map(|&(kind, _)| BandLayer {
-                sums: vec![[0.0; 4]; pixels],
-                counts: vec![0.0; kind.count_slots(pixels)],
+        let pixels = |band: usize| width * BAND_ROWS.min(height - band * BAND_ROWS);
+        let band = |band: usize| {
+            let layers = layers.iter().map(|&(kind, _)| {
+                let (sums, counts) = (pixels(band), kind.count_slots(pixels(band)));
+                Some(BandLayer { sums: reserved(sums)?, counts: reserved(counts)? })
             });
-            Mutex::new(Band { layers: layers.collect() })
-        });
-        Self {
+            Some(Band { layers: layers.collect::<Option<_>>()? })
+        };
+        // All of it is asked for before any of it is used: a film that is too large fails at once.
+        let Some(mut bands) = (0..band_count(size)).map(band).collect::<Option<Vec<Band>>>() else {
+            return Err(FilmError::OutOfMemory {
+                width: size.width(),
+                height: size.height(),
+                super_sample: size.super_sample(),
+                bytes: Self::bytes_needed(size, layers.iter().map(|l| l.0)),
+            });
+        };
+        for (number, band) in bands.iter_mut().enumerate() {
+            for (layer, (kind, _)) in band.layers.iter_mut().zip(layers) {
+                layer.sums.resize(pixels(number), [0.0; 4]);
+                layer.counts.resize(kind.count_slots(pixels(number)), 0.0);
+            }
+        }
+        Ok(Self {
             size,
             layers: layers.iter().map(|&(kind, name)| (kind, name.to_owned())).collect(),
             gate: RwLock::new(()),
-            bands: bands.collect(),
+            bands: bands.into_iter().map(Mutex::new).collect(),
             tally: Mutex::new(Tally { layers: vec![Totals::default(); layers.len()], refused: 0 }),
-        }
+        })
+    }
+
+    /// Bytes of the sums and counts of a film of that size with layers of these kinds.
+    pub fn bytes_needed(size: FilmSize, kinds: impl IntoIterator<Item = LayerKind>) -> u64 {
+        let pixel: usize = kinds.into_iter().map(LayerKind::pixel_bytes).sum();
+        size.internal_pixels() as u64 * pixel as u64
     }
 
     /// The film's resolution.
@@ -160,7 +182,7 @@ impl MasterFilm {
 
     /// Samples per output pixel so far; see [`FilmState::samples_per_pixel`].
     pub fn samples_per_pixel(&self) -> f64 {
-        samples(lock(&self.tally).layers.iter().map(|t| t.n_samples)) / self.size.pixels() as f64
+        Totals::draws(lock(&self.tally).layers.iter()) / self.size.pixels() as f64
     }
 
     /// Contributions that were refused since they were not finite.
@@ -170,8 +192,7 @@ impl MasterFilm {
 
     /// Bytes that its sums and counts hold.
     pub fn memory_bytes(&self) -> usize {
-        let pixel = |kind: LayerKind| size_of::<[f64; 4]>() + kind.count_slots(1) * size_of::<f64>();
-        self.kinds().map(pixel).sum::<usize>() * self.size.internal_pixels()
+        Self::bytes_needed(self.size, self.kinds()) as usize
     }
 
     fn kinds(&self) -> impl Iterator<Item = LayerKind> + '_ {
@@ -211,8 +232,26 @@ impl Band {
     }
 }
 
+/// An empty vector with room for so many elements; `None` where the system has no memory for them.
+fn reserved<T>(elements: usize) -> Option<Vec<T>> {
+    let mut vec = Vec::new();
+    vec.try_reserve_exact(elements).ok()?;
+    Some(vec)
+}
+
 /// A lock whatever became of its last holder: additions leave no half-made state that matters more
 /// than the panic that is already on its way.
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn memory_that_is_not_there_is_not_given() {
+        assert!(reserved::<[f64; 4]>(usize::MAX / 32).is_none());
+        assert!(reserved::<[f64; 4]>(0).is_some_and(|v| v.is_empty()));
+    }
 }

@@ -1,7 +1,7 @@
 //! A film as plain data: what is saved, resumed, merged and developed.
 
 use crate::band::{BAND_ROWS, RowsMut, add_bricks, develop_layer};
-use crate::{FilmDelta, FilmError, FilmSize, Layer, LayerKind, XyzImage};
+use crate::{FilmDelta, FilmError, FilmSize, Layer, LayerKind, Totals, XyzImage};
 
 /// All sums of a film in double precision.
 #[derive(Clone, Debug, PartialEq)]
@@ -87,21 +87,16 @@ impl FilmState {
         })
     }
 
-    /// Samples per output pixel: those of the layer that has the most, since the layers of one
-    /// technique count the same samples.
+    /// Samples per output pixel: camera paths (with the light paths drawn with them) and mutations, by the
+    /// pixels of the whole picture, whether or not only a region of it is rendered.
     pub fn samples_per_pixel(&self) -> f64 {
-        samples(self.layers.iter().map(|l| l.totals.n_samples)) / self.size.pixels() as f64
+        Totals::draws(self.layers.iter().map(|l| &l.totals)) / self.size.pixels() as f64
     }
 
     /// Bytes that its sums and counts hold.
     pub fn memory_bytes(&self) -> usize {
         self.layers.iter().map(|l| size_of_val(&*l.sums) + size_of_val(&*l.counts)).sum()
     }
-}
-
-/// The largest of the layers' sample counts.
-pub(crate) fn samples(counts: impl Iterator<Item = f64>) -> f64 {
-    counts.fold(0.0, f64::max)
 }
 
 /// Whether a delta was made for a film of that size with layers of these kinds.

@@ -57,6 +57,23 @@ fn layers_add_up() {
     assert_eq!(film.samples_per_pixel(), 2.0);
 }
 
+/// A hybrid render: camera paths with their light paths in two layers, and a chain's mutations in a third.
+#[test]
+fn mutations_are_draws_of_their_own_and_add() {
+    let size = FilmSize::new(2, 2, 3).unwrap();
+    let kinds = [LayerKind::PerPixel, LayerKind::PerScreen, LayerKind::PerScreen];
+    let mut film =
+        FilmState::new(size, &[(kinds[0], "camera"), (kinds[1], "light"), (kinds[2], "metropolis")]);
+    let mut delta = film.delta();
+    (0..8).for_each(|x| delta.add_sample(0, x % 6, 0, [1.0; 3], 1.0));
+    delta.add_samples(1, 8);
+    delta.add_samples(2, 20);
+    delta.add_brightness(2, 1.0, 5);
+    film.merge(&delta).unwrap();
+    // 8 paths and 20 mutations over 4 output pixels.
+    assert_eq!(film.samples_per_pixel(), 7.0);
+}
+
 #[test]
 fn gaps_show_the_mean_of_their_output_pixel() {
     // 3 × 3 internal pixels for each of 1 × 2 output pixels; the second has no sample at all.

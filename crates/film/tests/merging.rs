@@ -71,7 +71,7 @@ proptest! {
 #[test]
 fn threads_merge_what_one_would() {
     let deltas: Vec<FilmDelta> = (0..8).map(|seed| delta(seed, 3000)).collect();
-    let master = MasterFilm::new(size(), &LAYERS);
+    let master = MasterFilm::new(size(), &LAYERS).unwrap();
     std::thread::scope(|scope| {
         for pair in deltas.chunks(2) {
             let master = &master;
@@ -88,7 +88,7 @@ fn threads_merge_what_one_would() {
 #[test]
 fn the_same_order_gives_the_same_bits() {
     let deltas: Vec<FilmDelta> = (0..4).map(|seed| delta(seed, 2000)).collect();
-    let master = MasterFilm::new(size(), &LAYERS);
+    let master = MasterFilm::new(size(), &LAYERS).unwrap();
     for delta in &deltas {
         master.merge(delta).unwrap();
     }
@@ -96,15 +96,28 @@ fn the_same_order_gives_the_same_bits() {
     assert_eq!(master.snapshot(), state);
     assert_eq!(master.develop(), state.develop());
 
-    let resumed = MasterFilm::new(size(), &LAYERS);
+    let resumed = MasterFilm::new(size(), &LAYERS).unwrap();
     resumed.merge_state(&state).unwrap();
     assert_eq!(resumed.snapshot(), state);
 }
 
 #[test]
+fn a_film_without_memory_for_it_says_how_much_it_needs() {
+    let kinds = LAYERS.map(|l| l.0);
+    let bytes = MasterFilm::bytes_needed(FilmSize::new(32_768, 16_384, 1).unwrap(), kinds);
+    // Two layers of four doubles, and a count.
+    assert_eq!(bytes, (1 << 29) * 72);
+    let error = FilmError::OutOfMemory { width: 32_768, height: 16_384, super_sample: 1, bytes };
+    let said = error.to_string();
+    for part in ["width 32768", "height 16384", "super_sample_factor 1", "36864 MiB"] {
+        assert!(said.contains(part), "{part}: {said}");
+    }
+}
+
+#[test]
 fn foreign_films_are_refused() {
     let mut film = FilmState::new(size(), &LAYERS);
-    let master = MasterFilm::new(size(), &LAYERS);
+    let master = MasterFilm::new(size(), &LAYERS).unwrap();
     let other_size = FilmSize::new(50, 41, 1).unwrap();
     let other = FilmState::new(other_size, &LAYERS);
     assert_eq!(film.merge_state(&other), Err(FilmError::SizeMismatch(size(), other_size)));

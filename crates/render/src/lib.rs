@@ -4,6 +4,8 @@
 //! equal clients of it. Below this crate nothing starts a thread, reads a clock or touches a disk.
 
 pub mod disk;
+mod gate;
+mod memory;
 mod options;
 pub mod output;
 pub mod pool;

@@ -7,14 +7,16 @@ use std::time::Duration;
 pub struct Halt {
     /// After this time of rendering.
     pub time: Option<Duration>,
-    /// At this number of samples per output pixel, exactly.
+    /// At this number of samples per pixel of the whole picture, or more: independent samples end with a pass over
+    /// what is rendered (over a whole picture, at this number exactly), Metropolis mutations with a unit of
+    /// some thousands.
     pub samples_per_pixel: Option<u64>,
 }
 
 /// Options of a session.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
-    /// Number of worker threads; at least one is started.
+    /// Number of worker threads; at least one is started, and no more than can be at work at once.
     pub threads: usize,
     /// Names the whole random sequence.
     pub seed: u64,

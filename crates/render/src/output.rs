@@ -104,20 +104,23 @@ impl SaveJob {
 
     fn metadata(&self, progress: &Progress) -> Metadata {
         let scene = &self.scene;
-        let size = scene.film.size;
+        let (size, transport) = (scene.film.size, &scene.transport);
         let mut metadata = RenderFacts {
             version: self.version.clone(),
             scene_path: scene.output.scene_path.clone(),
             width: size.width(),
             height: size.height(),
             super_sample_factor: size.super_sample(),
-            bidirectional: false,
-            metropolis: false,
-            hybrid: false,
-            large_mutation_prob: 0.0,
-            max_change: 0.0,
-            max_num_consec_rejections: 0,
-            max_depth: scene.transport.max_depth,
+            bidirectional: transport.bidirectional,
+            metropolis: transport.metropolis.is_some(),
+            hybrid: transport.hybrid,
+            // Without Metropolis sampling nothing is mutated: 0.
+            large_mutation_prob: transport.metropolis.map_or(0.0, |m| m.large_mutation_prob),
+            max_change: transport.metropolis.map_or(0.0, |m| f64::from(m.max_change)),
+            max_num_consec_rejections: transport
+                .metropolis
+                .map_or(0, |m| u32::try_from(m.max_consecutive_rejections).unwrap_or(u32::MAX)),
+            max_depth: transport.max_depth,
             num_threads: self.threads as u32,
             num_samples: progress.samples as f64,
             elapsed_s: progress.elapsed.as_secs_f64(),

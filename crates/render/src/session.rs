@@ -1,13 +1,15 @@
 //! A running render.
 
+use crate::gate::Gate;
+use crate::memory;
 use crate::options::{Halt, Options};
 use crate::progress::{Progress, RateMeter};
 use crate::worker::{self, OrderedMerge, Shared};
-use indigo_film::{FilmState, MasterFilm};
+use indigo_film::{FilmError, FilmSize, FilmState, MasterFilm};
 use indigo_scene::Scene;
 use indigo_transport::driver::Driver;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::{Arc, Condvar, Mutex, PoisonError};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
@@ -37,8 +39,30 @@ pub enum Event {
 #[derive(Debug, thiserror::Error)]
 pub enum SessionError {
     /// The system gave no thread.
-    #[error("cannot start a render thread: {0}")]
-    NoThread(#[from] std::io::Error),
+    #[error("cannot start render thread {number}: {source}; use fewer (num_threads, -t)")]
+    NoThread {
+        /// Which one, from 1.
+        number: usize,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The system has not as much memory as the film needs.
+    #[error(transparent)]
+    Film(#[from] FilmError),
+    /// The system has, by its own account, less memory than rendering and saving the picture will take.
+    #[error(
+        "a picture of width {} and height {} with super_sample_factor {} needs at least {} MiB of memory, but the \
+         system has {} MiB left",
+        .size.width(), .size.height(), .size.super_sample(), .needed.div_ceil(1 << 20), .available >> 20
+    )]
+    Memory {
+        /// The picture's.
+        size: FilmSize,
+        /// Bytes.
+        needed: u64,
+        /// Bytes.
+        available: u64,
+    },
 }
 
 /// A scene being rendered by worker threads.
@@ -62,10 +86,13 @@ impl Session {
     /// Starts rendering.
     ///
     /// # Errors
-    /// Where the system gives no threads.
+    /// Where the system gives no threads, or not the memory.
     pub fn start(scene: Arc<Scene>, options: &Options) -> Result<Self, SessionError> {
         let driver = Driver::new(&scene, options.seed);
-        let film = MasterFilm::new(scene.film.size, driver.layers());
+        let size = scene.film.size;
+        check_memory(size, memory::needed(size, driver.layers().iter().map(|l| l.0)), memory::available())?;
+        let film = MasterFilm::new(size, driver.layers())?;
+        let threads = options.threads.clamp(1, driver.most_workers());
         let passes = options.halt.samples_per_pixel.unwrap_or(u64::MAX);
         let shared = Arc::new(Shared {
             unit_limit: driver.units(passes),
@@ -75,9 +102,7 @@ impl Session {
             next_unit: AtomicU64::new(0),
             samples: AtomicU64::new(0),
             epoch: AtomicU64::new(0),
-            stop: AtomicBool::new(false),
-            paused: Mutex::new(false),
-            resumed: Condvar::new(),
+            gate: Gate::default(),
             failure: Mutex::new(None),
             ordered: options.deterministic.then(OrderedMerge::default),
             seed: options.seed,
@@ -95,11 +120,16 @@ impl Session {
             rate: RateMeter::default(),
             reason: None,
         };
-        for i in 0..options.threads.max(1) {
+        // They wait for each other: those that were at work already would leave no time to start the rest.
+        session.shared.gate.pause();
+        for number in 1..=threads {
             let shared = Arc::clone(&session.shared);
-            let builder = std::thread::Builder::new().name(format!("render {i}"));
-            session.workers.push(builder.spawn(move || worker::work(&shared))?);
+            let builder = std::thread::Builder::new().name(format!("render {number}"));
+            let spawned = builder.spawn(move || worker::work(&shared));
+            session.workers.push(spawned.map_err(|source| SessionError::NoThread { number, source })?);
         }
+        session.started = Instant::now();
+        session.shared.gate.resume();
         Ok(session)
     }
 
@@ -133,7 +163,7 @@ impl Session {
     fn test_conditions(&mut self) {
         if self.halt.time.is_some_and(|t| self.elapsed() >= t) && self.reason.is_none() {
             self.reason = Some(HaltReason::Time);
-            self.end_workers();
+            self.shared.gate.stop();
         }
         if self.last_epoch.elapsed() >= self.epoch {
             self.last_epoch = Instant::now();
@@ -156,27 +186,21 @@ impl Session {
         }
     }
 
-    fn end_workers(&self) {
-        self.shared.stop.store(true, Ordering::Relaxed);
-        self.shared.resumed.notify_all();
-    }
-
     /// Asks the workers to end; [`wait`](Self::wait) tells when they have.
     pub fn stop(&mut self) {
         self.reason.get_or_insert(HaltReason::Stopped);
-        self.end_workers();
+        self.shared.gate.stop();
     }
 
     /// Lets the workers rest; the clock stops too.
     pub fn pause(&mut self) {
-        *self.shared.paused.lock().unwrap_or_else(PoisonError::into_inner) = true;
+        self.shared.gate.pause();
         self.paused_since.get_or_insert_with(Instant::now);
     }
 
     /// Goes on after a pause.
     pub fn resume(&mut self) {
-        *self.shared.paused.lock().unwrap_or_else(PoisonError::into_inner) = false;
-        self.shared.resumed.notify_all();
+        self.shared.gate.resume();
         if let Some(since) = self.paused_since.take() {
             self.paused_for += since.elapsed();
         }
@@ -220,12 +244,37 @@ impl Session {
     }
 }
 
+/// Better an answer at the start than an end in the midst of rendering.
+fn check_memory(size: FilmSize, needed: u64, available: Option<u64>) -> Result<(), SessionError> {
+    match available {
+        Some(available) if needed > available => Err(SessionError::Memory { size, needed, available }),
+        _ => Ok(()),
+    }
+}
+
 impl Drop for Session {
     fn drop(&mut self) {
-        self.end_workers();
+        self.shared.gate.stop();
         for worker in self.workers.drain(..) {
             // Nobody is left to hear of a failure.
             drop(worker.join());
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_picture_beyond_the_memory_is_refused_with_its_numbers() {
+        let size = FilmSize::new(32_768, 8_192, 2).expect("a size");
+        assert!(check_memory(size, 5 << 30, None).is_ok());
+        assert!(check_memory(size, 5 << 30, Some(5 << 30)).is_ok());
+        let error = check_memory(size, 5 << 30, Some(1 << 30)).expect_err("too little");
+        let said = error.to_string();
+        for part in ["width 32768", "height 8192", "super_sample_factor 2", "5120 MiB", "1024 MiB"] {
+            assert!(said.contains(part), "{part}: {said}");
         }
     }
 }

@@ -1,12 +1,13 @@
 //! What each worker thread does.
 
+use crate::gate::Gate;
 use indigo_film::{FilmDelta, MasterFilm};
 use indigo_scene::Scene;
 use indigo_transport::driver::Driver;
 use indigo_transport::technique::Tracer;
 use std::collections::BTreeMap;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::{Condvar, Mutex, PoisonError};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 /// What workers and the session share.
 pub(crate) struct Shared {
@@ -21,9 +22,7 @@ pub(crate) struct Shared {
     pub samples: AtomicU64,
     /// Workers hand over when this has moved on.
     pub epoch: AtomicU64,
-    pub stop: AtomicBool,
-    pub paused: Mutex<bool>,
-    pub resumed: Condvar,
+    pub gate: Gate,
     /// Set when a worker died; the message says how to replay what it did.
     pub failure: Mutex<Option<String>>,
     pub ordered: Option<OrderedMerge>,
@@ -58,8 +57,12 @@ pub(crate) fn work(shared: &Shared) {
     let mut delta = shared.film.delta();
     let mut tracer = shared.driver.tracer();
     let mut seen_epoch = shared.epoch.load(Ordering::Relaxed);
-    while !shared.stop.load(Ordering::Relaxed) {
-        wait_while_paused(shared, &mut delta);
+    loop {
+        // In order, everything has been handed over already.
+        shared.gate.rest(|| hand_over(shared, &mut delta));
+        if shared.gate.is_stopped() {
+            break;
+        }
         let unit = shared.next_unit.fetch_add(1, Ordering::Relaxed);
         if unit >= shared.unit_limit {
             break;
@@ -76,7 +79,9 @@ pub(crate) fn work(shared: &Shared) {
             }
         }
     }
-    hand_over(shared, &mut delta);
+    if shared.ordered.is_none() {
+        hand_over(shared, &mut delta);
+    }
 }
 
 fn hand_over(shared: &Shared, delta: &mut FilmDelta) {
@@ -87,6 +92,9 @@ fn hand_over(shared: &Shared, delta: &mut FilmDelta) {
 }
 
 /// A panic in the renderer is a bug; it must neither hang the session nor pass unseen.
+///
+/// What it leaves in the delta is sound and stays, with all that the worker did before: drivers count each
+/// sample when it is complete.
 fn render_unit(shared: &Shared, unit: u64, tracer: &mut Tracer, delta: &mut FilmDelta) -> Option<u64> {
     let result = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
         shared.driver.render_unit(&shared.scene, unit, tracer, delta)
@@ -104,20 +112,8 @@ fn render_unit(shared: &Shared, unit: u64, tracer: &mut Tracer, delta: &mut Film
                 shared.seed, shared.seed
             );
             *shared.failure.lock().unwrap_or_else(PoisonError::into_inner) = Some(message);
-            shared.stop.store(true, Ordering::Relaxed);
-            // What the unit has left in the delta is half done.
-            delta.clear();
+            shared.gate.stop();
             None
         }
-    }
-}
-
-fn wait_while_paused(shared: &Shared, delta: &mut FilmDelta) {
-    let mut paused = shared.paused.lock().unwrap_or_else(PoisonError::into_inner);
-    if *paused && shared.ordered.is_none() {
-        hand_over(shared, delta);
-    }
-    while *paused && !shared.stop.load(Ordering::Relaxed) {
-        paused = shared.resumed.wait(paused).unwrap_or_else(PoisonError::into_inner);
     }
 }

@@ -12,6 +12,6 @@ mod scene;
 pub mod schema;
 mod settings;
 
-pub use load::{LoadOptions, Loaded, load};
+pub use load::{LoadOptions, Loaded, Override, load};
 pub use scene::{FilmSettings, MetropolisSettings, OutputSettings, Scene, SceneStats, TransportSettings};
 pub use settings::{Listed, Origin, Settings};

@@ -10,6 +10,18 @@ use indigo_diag::{Sink, SourceMap, Span, Spanned};
 use indigo_geom::TreeStore;
 use indigo_igs::{Limits, read_document, read_scene};
 
+/// A setting given on the command line.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Override<'a> {
+    /// The option as the user writes it, such as `-halt`, for messages. Empty for a setting that the option before
+    /// it sets besides.
+    pub option: &'a str,
+    /// Name of the setting.
+    pub setting: &'a str,
+    /// Its value as text.
+    pub value: String,
+}
+
 /// What a front end adds to a scene.
 pub struct LoadOptions<'a> {
     /// Where bytes come from.
@@ -18,8 +30,8 @@ pub struct LoadOptions<'a> {
     pub trees: &'a dyn TreeStore,
     /// Path of the settings file, if there is one.
     pub inifile: Option<&'a str>,
-    /// Settings given on the command line, by name and text.
-    pub overrides: &'a [(&'a str, String)],
+    /// Settings given on the command line.
+    pub overrides: &'a [Override<'a>],
     /// Limits on files.
     pub limits: Limits,
     /// Whether to check only: no trees are built and no scene comes out.
@@ -65,25 +77,30 @@ fn take_settings(mut root: Node) -> (Option<Node>, Node) {
     (root.take_node(RENDERER_SETTINGS.name), root)
 }
 
-/// The settings of the command line as an element whose places lie in a made-up file.
-fn command_line(overrides: &[(&str, String)], sources: &mut SourceMap, sink: &mut Sink) -> Option<Node> {
+/// The settings of the command line as an element whose places lie in a file that holds the options as they were
+/// given.
+fn command_line(overrides: &[Override], sources: &mut SourceMap, sink: &mut Sink) -> Option<Node> {
     if overrides.is_empty() {
         return None;
     }
     let mut text = String::new();
     let mut ranges = vec![];
-    for (name, value) in overrides {
-        text.push_str(name);
-        text.push('=');
+    for Override { option, value, .. } in overrides {
+        if option.is_empty() {
+            ranges.push(ranges.last().copied().unwrap_or_default());
+            continue;
+        }
+        text.push_str(option);
+        text.push(' ');
         ranges.push((text.len(), text.len() + value.len()));
         text.push_str(value);
         text.push(' ');
     }
     let source = sources.add("command line", text.into_bytes().into(), None)?;
     let mut element = Element::new(RENDERER_SETTINGS.name, Span::new(source, 0, 0));
-    for ((name, value), (start, end)) in overrides.iter().zip(ranges) {
+    for (Override { setting, value, .. }, (start, end)) in overrides.iter().zip(ranges) {
         let span = Span::new(source, start, end);
-        let mut child = Element::new(name, span);
+        let mut child = Element::new(setting, span);
         child.text = Spanned::new(value.as_str().into(), span);
         element.children.push(child);
     }

@@ -1,5 +1,6 @@
 //! Settings in layers: default < inifile.xml < renderer_settings < command line.
 
+use crate::schema::filter::{GAUSSIAN, MN_CUBIC};
 use crate::schema::settings::RENDERER_SETTINGS;
 use indigo_decl::{Element, Field, Node, Value, bind, codes, report_unread};
 use indigo_diag::{Diagnostic, Severity, Sink, Span, Spanned};
@@ -50,10 +51,15 @@ pub struct Listed {
 impl Settings {
     /// From the nodes of the layers that exist; `nowhere` is the place of values that have none.
     pub fn new(layers: Vec<(Origin, Node)>, nowhere: Span) -> Self {
-        // Without any child every setting has its default: nothing can be wrong.
-        let defaults =
-            bind(Element::new(RENDERER_SETTINGS.name, nowhere), &RENDERER_SETTINGS, &mut Sink::new());
-        Self { layers, defaults }
+        // A setting without a child has its declared default; the filters are blocks, which have none.
+        let mut defaults = Element::new(RENDERER_SETTINGS.name, nowhere);
+        for (setting, filter) in [("splat_filter", &GAUSSIAN), ("downsize_filter", &MN_CUBIC)] {
+            let mut child = Element::new(setting, nowhere);
+            child.children.push(Element::new(filter.name, nowhere));
+            defaults.children.push(child);
+        }
+        // Nothing can be wrong with them.
+        Self { layers, defaults: bind(defaults, &RENDERER_SETTINGS, &mut Sink::new()) }
     }
 
     /// The layer that decides a setting. The ones below it have no say: their values count as used.

@@ -6,7 +6,7 @@ use indigo_diag::Severity;
 use indigo_geom::NoStore;
 use indigo_igs::Limits;
 use indigo_imaging::png::Depth;
-use indigo_scene::{LoadOptions, Loaded, Origin, load};
+use indigo_scene::{LoadOptions, Loaded, Origin, Override, load};
 
 /// A scene, and beside it a broken mesh, a broken picture and settings.
 struct Memory(String);
@@ -329,7 +329,8 @@ fn names_defined_twice_and_scenes_without_light_or_tone_mapping() {
 #[test]
 fn settings_come_from_the_highest_layer_that_gives_them() {
     let memory = Memory(format!("{HEAD}{CAMERA}</scene>").replace("<width>64</width>", ""));
-    let overrides = [("height", "31".to_owned()), ("halt_time", "2.5".to_owned())];
+    let overrides = [("-h", "height", "31"), ("-halt", "halt_time", "2.5")]
+        .map(|(option, setting, value)| Override { option, setting, value: value.to_owned() });
     let options = LoadOptions { inifile: Some("inifile.xml"), overrides: &overrides, ..options(&memory) };
     let loaded = load("scene.igs", &options);
     let listing = loaded.settings.as_ref().unwrap().listing();
@@ -349,9 +350,50 @@ fn settings_come_from_the_highest_layer_that_gives_them() {
 #[test]
 fn a_bad_command_line_value_has_a_place_too() {
     let memory = Memory(format!("{HEAD}{CAMERA}</scene>"));
-    let overrides = [("halt_time", "soon".to_owned())];
+    let overrides = [Override { option: "-halt", setting: "halt_time", value: "soon".to_owned() }];
     let loaded = load("scene.igs", &LoadOptions { overrides: &overrides, ..options(&memory) });
     let d = &loaded.sink.diagnostics()[0];
     assert_eq!((d.code, loaded.sources.name(d.span.unwrap().source)), ("E0202", "command line"));
+    assert_eq!(loaded.sources.line(d.span.unwrap()), ("-halt soon ".to_owned(), 6..10));
     assert!(loaded.scene.is_none());
+}
+
+#[test]
+fn the_filters_in_force_are_listed() {
+    let value = |settings: &str, name: &str| {
+        let memory = Memory(format!("{HEAD}{CAMERA}</scene>").replace("<width>64</width>", settings));
+        let loaded = load("scene.igs", &options(&memory));
+        let listing = loaded.settings.expect("settings").listing();
+        listing.into_iter().find(|l| l.name == name).expect("a setting").value
+    };
+    assert_eq!(value("", "splat_filter"), "gaussian");
+    assert_eq!(value("", "downsize_filter"), "mn_cubic blur=0.6 ring=0.2");
+    let chosen = "<splat_filter><mn_cubic><blur>0.5</blur></mn_cubic></splat_filter><downsize_filter><box/></downsize_filter>";
+    assert_eq!(value(chosen, "splat_filter"), "mn_cubic blur=0.5 ring=0.2");
+    assert_eq!(value(chosen, "downsize_filter"), "box");
+}
+
+#[test]
+fn the_filters_are_the_documented_ones_where_none_is_given() {
+    let memory = Memory(format!("{HEAD}{CAMERA}</scene>"));
+    let scene = load("scene.igs", &options(&memory)).scene.expect("nothing is wrong with it");
+    assert_eq!(scene.picture.downsize, indigo_film::Filter::MN_DEFAULT);
+    let gaussian = indigo_film::FilmFilter::new(indigo_film::Filter::Gaussian, scene.film.size).unwrap();
+    let at = indigo_math::Vec2::new(9.3, 7.8);
+    assert_eq!(scene.film.filter.footprint(at).rows, gaussian.footprint(at).rows);
+}
+
+#[test]
+fn threads_have_a_ceiling() {
+    let with = |threads: &str| {
+        let settings = format!("<width>64</width><num_threads>{threads}</num_threads>");
+        let memory = Memory(format!("{HEAD}{CAMERA}</scene>").replace("<width>64</width>", &settings));
+        let loaded = load("scene.igs", &options(&memory));
+        let places =
+            loaded.sink.diagnostics().iter().map(|d| (d.code, loaded.sources.position(d.span.unwrap()).line));
+        places.collect::<Vec<_>>()
+    };
+    assert_eq!(with("1024"), []);
+    assert_eq!(with("1025"), [("E0203", 2)]);
+    assert_eq!(with("0"), [("E0203", 2)]);
 }

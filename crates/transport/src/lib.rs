@@ -2,8 +2,9 @@
 //! the film, and the drivers that decide which samples to take.
 //!
 //! - [`sampler`]: primary samples, in blocks of four numbers with fixed meaning;
-//! - [`technique`]: path tracing;
-//! - [`driver`]: independent samples in low-discrepancy order.
+//! - [`technique`]: path tracing, and bidirectional path tracing with multiple importance sampling;
+//! - [`driver`]: independent samples in low-discrepancy order, Metropolis sampling in primary sample space, and
+//!   their hybrid.
 //!
 //! Nothing here starts a thread, reads a clock, allocates for a sample or prints.
 

@@ -65,6 +65,73 @@ fn a_picture_says_how_it_was_made() {
 }
 
 #[test]
+fn a_picture_names_the_technique_and_the_mutations_that_made_it() {
+    let bench = Workbench::new(&format!(
+        "{QUIET}<large_mutation_prob>0.25</large_mutation_prob><max_change>0.03</max_change><max_num_consec_rejections>77</max_num_consec_rejections><save_untonemapped_exr>true</save_untonemapped_exr>"
+    ));
+    let text = std::fs::read_to_string(bench.path("scene.igs")).expect("the scene");
+    for off in ["<metropolis>false", "<bidirectional>false"] {
+        assert!(text.contains(off));
+    }
+    let text = text.replace("<metropolis>false", "<hybrid>true</hybrid><metropolis>true");
+    bench.write("scene.igs", &text.replace("<bidirectional>false", "<bidirectional>true"));
+    let ran = bench.run(&["scene.igs", "-haltspp", "1", "-o", "a.png"]);
+    assert_eq!(ran.status, Some(0), "{ran:?}");
+    assert!(ran.stderr.contains("max_num_consec_rejections = 77 biases the picture"), "{}", ran.stderr);
+    let told = bench.run(&["-dumpmetadata", "a.png"]).stdout;
+    for line in [
+        "bidirectional: 1",
+        "metropolis: 1",
+        "hybrid: 1",
+        "large_mutation_prob: 0.25000",
+        "max_change: 0.03000",
+        "max_num_consec_rejections: 77",
+    ] {
+        assert!(told.contains(line), "{line}: {told}");
+    }
+}
+
+/// Two programs that start in the same second: neither loses its picture to the other.
+#[test]
+fn pictures_of_the_same_second_stand_beside_each_other() {
+    let bench = Workbench::new(QUIET);
+    let mut running: Vec<_> =
+        (0..4).map(|_| bench.start(&["-haltspp", "1", "scene.igs", "-t", "1"])).collect();
+    for program in &mut running {
+        assert_eq!(program.finish(), Some(0));
+    }
+    let names = || std::fs::read_dir(bench.path("renders")).expect("the directory of pictures");
+    assert_eq!(names().count(), 4);
+    for name in names() {
+        assert_picture(&name.expect("an entry").path(), 40, 30);
+    }
+}
+
+#[test]
+fn a_path_that_no_picture_can_have_is_refused_before_rendering() {
+    let bench = Workbench::new(QUIET);
+    std::fs::create_dir(bench.path("place")).expect("the test's own directory");
+    for (path, says) in [
+        ("a.jpg", "ends in .png is expected, not in .jpg"),
+        ("x.exr", "ends in .png is expected, not in .exr"),
+        ("", "is empty"),
+        ("place", "is a directory"),
+        ("new/", "is a directory"),
+        ("..", "is a directory"),
+        #[cfg(unix)]
+        ("/dev/null", "is a device"),
+    ] {
+        let ran = bench.run(&["scene.igs", "-halt", "100", "-o", path]);
+        assert_eq!(ran.status, Some(2), "{path}: {ran:?}");
+        assert!(ran.stderr.contains(says), "{path}: {ran:?}");
+    }
+    let ran = bench.run(&["scene.igs", "-haltspp", "1", "-o", "new/shot"]);
+    assert_eq!(ran.status, Some(0), "{ran:?}");
+    assert!(ran.stderr.contains("note: the picture is written to new/shot.png"), "{ran:?}");
+    assert_picture(&bench.path("new/shot.png"), 40, 30);
+}
+
+#[test]
 fn the_same_seed_gives_the_same_picture() {
     let bench = Workbench::new(QUIET);
     let picture = |name: &str, seed: &str, threads: &str| {

@@ -25,7 +25,9 @@ fn bad_usage_ends_with_2_and_a_way_out() {
         (vec!["scene.igs", "-seed", "x"], "whole number"),
         (vec!["scene.igs", "other.igs"], "two scenes"),
         (vec!["scene.igs", "-haltspp", "many"], "many"),
-        (vec!["scene.igs", "-t", "0"], "num_threads"),
+        (vec!["scene.igs", "-t", "0"], "-t 0"),
+        (vec!["scene.igs", "-t", "100000"], "must be in [1, 1024]"),
+        (vec!["scene.igs", "-halt", "soon"], "-halt soon"),
         (vec!["nowhere.igs"], "nowhere.igs"),
     ] {
         let ran = bench.run(&arguments);
@@ -82,4 +84,68 @@ fn settings_are_listed_with_their_origins() {
         assert_eq!(rest.split_whitespace().next(), Some(value), "{name}");
         assert!(rest.ends_with(&format!("({origin})")), "{name}: {rest}");
     }
+}
+
+#[test]
+fn a_fraction_of_a_sample_is_rounded_up_and_said() {
+    let bench = Workbench::new("<logging>false</logging>");
+    let ran = bench.run(&["scene.igs", "-haltspp", "1.5", "-o", "a.png"]);
+    assert_eq!(ran.status, Some(0), "{ran:?}");
+    assert!(ran.stderr.contains("halting at 2 per pixel, not at 1.5"), "{}", ran.stderr);
+    assert!(bench.run(&["-dumpmetadata", "a.png"]).stdout.contains("samples_per_pixel: 2.00000"));
+}
+
+/// Every line is JSON, the last one a summary.
+#[test]
+fn json_is_complete() {
+    let bench = Workbench::new("<logging>false</logging>");
+    let text = scene("").replace("<radius>1<", "<radius>-1<");
+    bench.write("bad.igs", &text.replace("<pos>0 0 0</pos>", "<pos>0 0 0</pos><poss>0</poss>"));
+    for (name, status, summary) in [
+        ("bad.igs", 2, "{\"summary\":{\"file\":\"bad.igs\",\"errors\":1,\"warnings\":1,\"not_listed\":0}}"),
+        (
+            "scene.igs",
+            0,
+            "{\"summary\":{\"file\":\"scene.igs\",\"errors\":0,\"warnings\":0,\"not_listed\":0}}",
+        ),
+    ] {
+        let ran = bench.run(&[name, "--check", "--json"]);
+        assert_eq!(ran.status, Some(status), "{ran:?}");
+        assert_eq!(ran.stderr, "", "all is in the JSON");
+        assert!(ran.stdout.lines().all(|l| l.starts_with('{') && l.ends_with('}')), "{}", ran.stdout);
+        assert_eq!(ran.stdout.lines().last(), Some(summary));
+    }
+}
+
+/// `/dev/full` takes nothing, like a full disk.
+#[cfg(target_os = "linux")]
+#[test]
+fn an_answer_that_cannot_be_written_is_a_failure_and_no_panic() {
+    let bench = Workbench::new("<logging>false</logging>");
+    for arguments in [
+        vec!["--help"],
+        vec!["--version"],
+        vec!["scene.igs", "--print-settings"],
+        vec!["scene.igs", "--check", "--json"],
+    ] {
+        let full = std::fs::OpenOptions::new().write(true).open("/dev/full").expect("a device of Linux");
+        let ran = bench.run_into(&arguments, full);
+        assert_eq!(ran.status, Some(1), "{arguments:?}: {ran:?}");
+        assert!(ran.stderr.starts_with("error: cannot write to standard output"), "{arguments:?}: {ran:?}");
+        assert_eq!(ran.stderr.lines().count(), 1, "{ran:?}");
+    }
+}
+
+/// With an address space of 2 GB there is none for the sums of a 20,000 by 20,000 picture.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_picture_that_does_not_fit_into_memory_is_refused_with_its_numbers() {
+    let size = "<width>20000</width><height>20000</height><super_sample_factor>1</super_sample_factor>";
+    let bench = Workbench::new(&format!("<logging>false</logging>{size}"));
+    let ran = bench.run_in_memory(2_000_000, &["scene.igs", "-haltspp", "1", "-o", "a.png", "-t", "1"]);
+    assert_eq!(ran.status, Some(1), "{ran:?}");
+    for part in ["error: ", "width 20000", "height 20000", "super_sample_factor 1", "MiB of memory"] {
+        assert!(ran.stderr.contains(part), "{part}: {}", ran.stderr);
+    }
+    assert_eq!(bench.files(), ["scene.igs"], "nothing is written");
 }

@@ -61,6 +61,37 @@ impl Workbench {
         Ran::from(self.command(arguments).output().expect("the program starts"))
     }
 
+    /// Runs to the end, with standard output going to a file.
+    #[cfg(target_os = "linux")]
+    pub fn run_into(&self, arguments: &[&str], stdout: std::fs::File) -> Ran {
+        let mut command = self.command(arguments);
+        Ran::from(
+            command
+                .stdout(stdout)
+                .stderr(Stdio::piped())
+                .spawn()
+                .and_then(Child::wait_with_output)
+                .expect("the program starts"),
+        )
+    }
+
+    /// Runs to the end with an address space of so many KiB.
+    #[cfg(target_os = "linux")]
+    pub fn run_in_memory(&self, kib: u64, arguments: &[&str]) -> Ran {
+        let mut command = Command::new("sh");
+        command
+            .args([
+                "-c",
+                &format!("ulimit -v {kib}; exec \"$0\" \"$@\""),
+                env!("CARGO_BIN_EXE_indigo_console"),
+            ])
+            .args(arguments)
+            .current_dir(&self.directory)
+            .env("INDIGO_CACHE", self.path("cache"))
+            .stdin(Stdio::null());
+        Ran::from(command.output().expect("a shell"))
+    }
+
     /// Starts, with what it says going to files.
     pub fn start(&self, arguments: &[&str]) -> Running {
         let file = |name: &str| std::fs::File::create(self.path(name)).expect("the test's own directory");

@@ -43,9 +43,12 @@ fn otherwise_films_differ_by_the_rounding_of_sums_alone() {
 #[test]
 fn a_region_is_rendered_as_the_crop_of_the_whole() {
     let region = "<render_region><x1>5</x1><y1>17</y1><x2>44</x2><y2>31</y2></render_region>";
-    let (all, ..) = run(&small_scene(2, ""), &options(2, 4));
+    // 4 samples per pixel of the whole are 16.9 passes over the region: 17, since passes are whole.
+    let (all, ..) = run(&small_scene(2, ""), &options(2, 17));
     let (part, _, progress) = run(&small_scene(2, region), &options(2, 4));
-    assert_eq!(progress.samples, 39 * 14 * 4);
+    assert_eq!(progress.samples, 39 * 14 * 17);
+    assert_eq!(progress.samples_per_pixel, f64::from(39 * 14 * 17) / f64::from(48 * 48));
+    assert_eq!(part.samples_per_pixel(), progress.samples_per_pixel);
     let width = all.size.internal_width() as usize;
     for i in 0..all.layers[0].sums.len() {
         let inside = (10..88).contains(&(i % width)) && (34..62).contains(&(i / width));

@@ -2,7 +2,7 @@
 
 use super::common::scene_with;
 use super::common::text::{background, flat_camera, scene_file, settings, uniform};
-use super::{PATIENCE, finish, options, run, small_scene};
+use super::{PATIENCE, finish, options, room, run, small_scene};
 use indigo_imaging::{LinearImage, Metadata, exr};
 use indigo_render::{Event, Halt, HaltReason, Options, Session};
 use std::sync::Arc;
@@ -33,6 +33,44 @@ fn every_pixel_gets_exactly_the_samples_that_were_asked_for() {
                 );
             }
         }
+    }
+}
+
+/// Samples per pixel count over the whole picture, and a halt at some number of them gives no fewer.
+#[test]
+fn at_least_the_samples_that_were_asked_for() {
+    let region = "<render_region><x1>5</x1><y1>17</y1><x2>44</x2><y2>31</y2></render_region>";
+    for mode in [
+        "<metropolis>true</metropolis>",
+        "<hybrid>true</hybrid>",
+        "<bidirectional>true</bidirectional><hybrid>true</hybrid>",
+    ] {
+        for more in ["", region] {
+            let scene = room(&format!("{mode}{more}"));
+            let (film, reason, progress) = run(&scene, &options(2, 3));
+            assert_eq!(reason, HaltReason::Samples);
+            let (found, what) = (film.samples_per_pixel(), format!("{mode}{more}"));
+            assert_eq!(found, progress.samples_per_pixel, "{what}");
+            // No more than a pair of units above.
+            let most = 3.0 + f64::from(2048 + 1024) / f64::from(48 * 48);
+            assert!((3.0..=most).contains(&found), "{what}: {found}");
+        }
+    }
+}
+
+/// No machine has so many threads, and no driver so much to do at once; it must neither fail nor take long.
+#[test]
+fn a_thousand_threads_start_and_stop() {
+    for mode in ["", "<metropolis>true</metropolis>", "<hybrid>true</hybrid>"] {
+        let scene = room(mode);
+        let started = Instant::now();
+        let mut session =
+            Session::start(scene, &Options { halt: ENDLESS, deterministic: false, ..options(1024, 0) })
+                .expect("threads");
+        session.wait(Duration::from_millis(10));
+        session.stop();
+        assert_eq!(finish(&mut session).0, HaltReason::Stopped);
+        assert!(started.elapsed() < Duration::from_secs(30), "{mode}: {:?}", started.elapsed());
     }
 }
 
@@ -135,22 +173,43 @@ fn dropping_a_session_ends_its_threads() {
     assert_eq!(Arc::strong_count(&scene), 1, "a thread still holds the scene");
 }
 
+/// The tile with the sphere, whose texture is gone, is the last of nine; what came before it stays.
+#[test]
+fn a_failure_leaves_what_was_done_before_it() {
+    let mut broken = broken_scene(96, "1.5 4 -1.5", "0.3");
+    broken.textures.clear();
+    let halt =
+        Options { halt: ENDLESS, deterministic: false, epoch: Duration::from_hours(1), ..options(1, 0) };
+    let (film, reason, progress) = run(&Arc::new(broken), &halt);
+    assert!(matches!(reason, HaltReason::Failed(_)), "{reason:?}");
+    assert_eq!(progress.samples, 8 * 32 * 32);
+    let counted = film.layers[0].totals.n_samples;
+    // With those of the ninth tile before the sphere.
+    assert!(counted >= progress.samples as f64 && counted < 9.0 * 32.0 * 32.0, "{counted}");
+    assert_eq!(film.layers[0].counts.iter().sum::<f64>(), counted);
+}
+
+/// A sphere whose texture is in a file, before a background.
+fn broken_scene(side: u32, center: &str, radius: &str) -> indigo_scene::Scene {
+    let texel = LinearImage { width: 1, height: 1, pixels: vec![[0.5; 4]] };
+    let texture = exr::encode(&texel, &Metadata::default()).expect("a picture");
+    let text = scene_file(&[
+        settings(side, ""),
+        flat_camera([0.0; 3], [0.0, 1.0, 0.0], 0.5),
+        "<material><name>m</name><diffuse><albedo_texture><path>t.exr</path></albedo_texture></diffuse></material>"
+            .to_owned(),
+        format!("<sphere><center>{center}</center><radius>{radius}</radius><material_name>m</material_name></sphere>"),
+        background(&uniform(1e4)),
+    ]);
+    scene_with(&text, [("t.exr", texture)])
+}
+
 /// A bug in the kernel, here a texture that is gone, ends the session with a message that says how to
 /// see it again.
 #[test]
 fn a_worker_that_fails_is_reported() {
-    let texel = LinearImage { width: 1, height: 1, pixels: vec![[0.5; 4]] };
-    let texture = exr::encode(&texel, &Metadata::default()).expect("a picture");
-    let text = scene_file(&[
-        settings(48, ""),
-        flat_camera([0.0; 3], [0.0, 1.0, 0.0], 0.5),
-        "<material><name>m</name><diffuse><albedo_texture><path>t.exr</path></albedo_texture></diffuse></material>"
-            .to_owned(),
-        "<sphere><center>0 4 0</center><radius>1</radius><material_name>m</material_name></sphere>".to_owned(),
-        background(&uniform(1e4)),
-    ]);
     for deterministic in [false, true] {
-        let mut broken = scene_with(&text, [("t.exr", texture.clone())]);
+        let mut broken = broken_scene(48, "0 4 0", "1");
         broken.textures.clear();
         let (_, reason, _) =
             run(&Arc::new(broken), &Options { halt: ENDLESS, deterministic, ..options(3, 0) });

@@ -38,6 +38,22 @@ fn small_scene(super_sample: u32, more_settings: &str) -> Arc<Scene> {
     ])))
 }
 
+/// A sphere and a lamp in the air: for every technique and driver.
+fn room(more_settings: &str) -> Arc<Scene> {
+    Arc::new(common::scene(&scene_file(&[
+        // Of what is given twice the last counts.
+        settings(48, more_settings),
+        flat_camera([0.0, -4.0, 1.5], [0.0, 4.0, -1.0], 0.5),
+        grey("grey", 0.6),
+        "<sphere><center>0 0 0.7</center><radius>0.7</radius><material_name>grey</material_name></sphere>"
+            .to_owned(),
+        format!(
+            "<rectanglelight><pos>0 0 3</pos><width>1</width><height>1</height><spectrum>{}</spectrum></rectanglelight>",
+            uniform(1e5)
+        ),
+    ])))
+}
+
 fn options(threads: usize, samples_per_pixel: u64) -> Options {
     Options {
         threads,

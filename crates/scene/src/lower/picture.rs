@@ -18,7 +18,7 @@ const DEFAULT_TONE_MAPPING: ToneMapping =
 pub(super) fn film(settings: &Settings, sink: &mut Sink) -> Option<FilmSettings> {
     let dimension = |field: &str| u32::try_from(settings.int(field).value).unwrap_or(u32::MAX);
     let (width, height) = (dimension("width"), dimension("height"));
-    let filter = filter(settings, "splat_filter", Filter::Gaussian, sink);
+    let filter = filter(settings, "splat_filter", sink);
     let size = FilmSize::new(width, height, dimension("super_sample_factor"))
         .map_err(|e| {
             sink.push(Diagnostic::error(codes::PICTURE_SIZE, settings.span_of("width"), e.to_string()));
@@ -52,8 +52,9 @@ fn region(settings: &Settings, size: FilmSize, sink: &mut Sink) -> Option<Region
         .ok()
 }
 
-fn filter(settings: &Settings, field: &str, default: Filter, sink: &mut Sink) -> Filter {
-    let Some(kind) = settings.node(field).and_then(Node::alternative) else { return default };
+fn filter(settings: &Settings, field: &str, sink: &mut Sink) -> Filter {
+    // Without a kind there was an error.
+    let Some(kind) = settings.node(field).and_then(Node::alternative) else { return Filter::Box };
     kind.mark_used();
     let filter = match kind.block.name {
         "box" => Filter::Box,
@@ -64,7 +65,7 @@ fn filter(settings: &Settings, field: &str, default: Filter, sink: &mut Sink) ->
         Ok(()) => filter,
         Err(error) => {
             sink.push(Diagnostic::error(indigo_decl::codes::OUT_OF_RANGE, kind.span, error.to_string()));
-            default
+            Filter::Box
         }
     }
 }
@@ -77,7 +78,7 @@ pub(super) fn picture(
     sink: &mut Sink,
 ) -> Option<PictureSettings> {
     let tone_mapping = tone_mapping(root, sink);
-    let downsize = filter(settings, "downsize_filter", Filter::MN_DEFAULT, sink);
+    let downsize = filter(settings, "downsize_filter", sink);
     let foreground_alpha = settings.bool("render_foreground_alpha");
     settings.refuse_true("watermark", None, sink);
     let (camera, opening) = camera?;

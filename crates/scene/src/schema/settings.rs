@@ -3,6 +3,9 @@
 use super::filter::{DOWNSIZE_FILTER, SPLAT_FILTER};
 use indigo_decl::{Block, Field, Kind, Later, Presence, Range};
 
+/// The most threads that may be asked for.
+pub const MOST_THREADS: usize = 1024;
+
 const fn flag(name: &'static str, default: &'static str, doc: &'static str) -> Field {
     Field::new(name, Kind::Bool, Presence::Default(default), doc)
 }
@@ -80,7 +83,9 @@ pub static RENDERER_SETTINGS: Block = Block::new(
         real(
             "halt_samples_per_pixel",
             "-1",
-            "Rendering halts at this number of samples per pixel. Never, if not positive.",
+            "Rendering halts at this number of samples per pixel of the whole picture, or a little above it: a \
+             fraction is rounded up, as are the mutations of `metropolis` to some thousands, and the samples of a \
+             `render_region` so that each of its pixels gets the same. Never, if not positive.",
         )
         .unit("samples/pixel"),
         flag(
@@ -96,7 +101,14 @@ pub static RENDERER_SETTINGS: Block = Block::new(
             "true",
             "Whether there are as many threads as the machine has logical cores.",
         ),
-        count("num_threads", "1", "Number of threads, without `auto_choose_num_threads`.").unit("threads"),
+        count(
+            "num_threads",
+            "1",
+            "Number of threads, without `auto_choose_num_threads`. At most 1024: more than any machine for which this \
+             is meant has cores, and few enough that each may hold a film of its own.",
+        )
+        .unit("threads")
+        .range(Range::Within(1.0, MOST_THREADS as f64)),
         count(
             "super_sample_factor",
             "2",

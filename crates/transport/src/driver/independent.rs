@@ -43,6 +43,11 @@ impl Independent {
         }
     }
 
+    /// Output pixels that are rendered.
+    pub(super) fn pixels(&self) -> u64 {
+        self.region.pixels()
+    }
+
     /// Units of a pass, which gives every rendered output pixel one sample.
     pub(super) fn units_per_pass(&self) -> u64 {
         u64::from(self.tiles[0]) * u64::from(self.tiles[1])
@@ -70,9 +75,6 @@ impl Independent {
                 samples += 1;
             }
         }
-        if self.is_bidirectional {
-            delta.add_samples(self.layer + 1, samples);
-        }
         samples
     }
 
@@ -99,6 +101,10 @@ impl Independent {
         let found = tracer.trace(scene, &mut numbers, position, self.events, &mut ());
         let xyz = found.sensor.xyz(&(found.path.radiance * on_film.weight));
         delta.add_sample(self.layer, x, y, xyz, (found.path.alpha * on_film.weight).to_f64() as f32);
+        if self.is_bidirectional {
+            // Counted one by one, so that what a unit that fails leaves behind is counted rightly.
+            delta.add_samples(self.layer + 1, 1);
+        }
         for splat in tracer.splats() {
             let xyz = found.sensor.xyz(&splat.radiance);
             delta.splat(self.layer + 1, self.region.in_pixels(splat.position), xyz, &self.filter);

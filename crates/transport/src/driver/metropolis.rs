@@ -22,7 +22,7 @@ use indigo_scene::{MetropolisSettings, Scene};
 use std::sync::{Mutex, PoisonError};
 
 /// Chains; more than any machine has threads, so that they need not wait for each other.
-const CHAINS: u64 = 128;
+pub(super) const CHAINS: u64 = 128;
 /// Independent samples from which a chain's start is drawn.
 const SEEDS: u64 = 1024;
 /// Mutations of a unit.
@@ -84,11 +84,6 @@ impl Metropolis {
         }
     }
 
-    /// Units that give every rendered output pixel so many mutations on average.
-    pub(super) fn units(&self, passes: u64) -> u64 {
-        self.region.pixels().saturating_mul(passes).div_ceil(MUTATIONS)
-    }
-
     /// Does a unit: adds its splats to `delta`, and says how many mutations they were.
     pub(super) fn render_unit(
         &self,
@@ -113,10 +108,11 @@ impl Metropolis {
             let first = SEEDS + turn * MUTATIONS;
             for step in first..first + MUTATIONS {
                 run.mutate(&mut chain, step);
+                // Counted one by one, so that what a unit that fails leaves behind is counted rightly.
+                run.delta.add_samples(self.layer, 1);
             }
             run.settle(&mut chain.current);
             chain.units += 1;
-            delta.add_samples(self.layer, MUTATIONS);
             return MUTATIONS;
         }
     }

@@ -9,7 +9,7 @@ use crate::technique::{Events, Tracer};
 use independent::Independent;
 use indigo_film::{FilmDelta, LayerKind};
 use indigo_scene::Scene;
-use metropolis::{MUTATIONS, Metropolis};
+use metropolis::{CHAINS, MUTATIONS, Metropolis};
 use region::Region;
 
 /// The driver of a scene.
@@ -73,7 +73,7 @@ impl Driver {
         Self {
             parts,
             layers,
-            pixels: region.pixels(),
+            pixels: region.size.pixels() as u64,
             rendered: region.share(),
             is_bidirectional: transport.bidirectional,
         }
@@ -84,9 +84,19 @@ impl Driver {
         &self.layers
     }
 
-    /// Output pixels that are rendered.
+    /// Output pixels of the whole picture, by which samples per pixel are counted.
     pub fn pixels(&self) -> u64 {
         self.pixels
+    }
+
+    /// How many threads can be at work at once; more would wait for each other.
+    pub fn most_workers(&self) -> usize {
+        match &self.parts {
+            Parts::Independent(_) => usize::MAX,
+            Parts::Metropolis(_) => CHAINS as usize,
+            // Every other unit is a chain's.
+            Parts::Hybrid(..) => 2 * CHAINS as usize,
+        }
     }
 
     /// The technique with its memory, one for each thread.
@@ -94,17 +104,24 @@ impl Driver {
         Tracer::new(self.is_bidirectional, self.rendered)
     }
 
-    /// Units that give every rendered output pixel so many samples.
-    pub fn units(&self, passes: u64) -> u64 {
-        match &self.parts {
-            Parts::Independent(driver) => driver.units_per_pass().saturating_mul(passes),
-            Parts::Metropolis(driver) => driver.units(passes),
-            Parts::Hybrid(direct, _) => {
-                let samples = u128::from(self.pixels) * u128::from(passes);
-                let pair = u128::from(self.pixels / direct.units_per_pass() + MUTATIONS).max(1);
-                u64::try_from(2 * samples.div_ceil(pair)).unwrap_or(u64::MAX)
+    /// The least number of units with so many samples per pixel of the whole picture, or more.
+    ///
+    /// Independent samples come in whole passes over what is rendered, and a pass over a whole picture is one
+    /// sample per pixel exactly; mutations come in units of [`MUTATIONS`].
+    pub fn units(&self, samples_per_pixel: u64) -> u64 {
+        let samples = u128::from(self.pixels) * u128::from(samples_per_pixel);
+        let units = match &self.parts {
+            Parts::Independent(driver) => {
+                samples.div_ceil(u128::from(driver.pixels())) * u128::from(driver.units_per_pass())
             }
-        }
+            Parts::Metropolis(_) => samples.div_ceil(u128::from(MUTATIONS)),
+            Parts::Hybrid(direct, _) => {
+                // Tiles come in falling size, so any first few of a pass have at least the mean.
+                let mean_tile = direct.pixels() / direct.units_per_pass();
+                2 * samples.div_ceil(u128::from(mean_tile + MUTATIONS))
+            }
+        };
+        u64::try_from(units).unwrap_or(u64::MAX)
     }
 
     /// Does a unit: adds its samples to `delta`, a film of [`layers`](Self::layers), and says how many

@@ -1,0 +1,44 @@
+//! How much memory a render will surely need, and whether it is there.
+
+use indigo_film::{FilmSize, LayerKind, MasterFilm};
+
+/// What developing a film holds for each internal pixel: XYZ and alpha in single precision, and whether there
+/// is a sample.
+const DEVELOPED_PIXEL: u64 = 4 * size_of::<f32>() as u64 + 1;
+
+/// The least that rendering and saving a film takes: its sums, the copy of them that is saved, and that copy
+/// developed. What the workers hold comes on top, as far as they touch it.
+pub(crate) fn needed(size: FilmSize, kinds: impl IntoIterator<Item = LayerKind>) -> u64 {
+    2 * MasterFilm::bytes_needed(size, kinds) + DEVELOPED_PIXEL * size.internal_pixels() as u64
+}
+
+/// Bytes that the system can still give, where it says so: only Linux does, for itself and for the group of
+/// processes that this one is in.
+pub(crate) fn available() -> Option<u64> {
+    let system = std::fs::read_to_string("/proc/meminfo").ok().and_then(|text| available_of(&text));
+    let group =
+        std::fs::read_to_string("/sys/fs/cgroup/memory.max").ok().and_then(|text| text.trim().parse().ok());
+    [system, group].into_iter().flatten().min()
+}
+
+/// The line `MemAvailable:  123 kB`.
+fn available_of(meminfo: &str) -> Option<u64> {
+    let line = meminfo.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
+    let kib: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    kib.checked_mul(1024)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn memory_is_counted_in_bytes() {
+        let size = FilmSize::new(100, 50, 2).expect("a size");
+        // 20,000 internal pixels: sums of four doubles, a count, both twice, and what is developed.
+        assert_eq!(needed(size, [LayerKind::PerPixel]), 20_000 * (2 * 40 + 17));
+        assert_eq!(needed(size, [LayerKind::PerPixel, LayerKind::PerScreen]), 20_000 * (2 * 72 + 17));
+        assert_eq!(available_of("MemTotal: 9 kB\nMemAvailable:    2048 kB\n"), Some(2 << 20));
+        assert_eq!(available_of("MemTotal: 9 kB\n"), None);
+    }
+}
