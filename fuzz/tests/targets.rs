@@ -1,11 +1,12 @@
 //! The fuzz targets: every reader of files that users bring.
 
 use indigo_decl::{ResolveError, Resolved, Resolver};
-use indigo_diag::{Sink, SourceMap};
 use indigo_formats::image::Pixels;
 use indigo_formats::{MeshData, MeshFormat, image};
 use indigo_fuzz::fuzz;
-use indigo_igs::{Limits, read_scene};
+use indigo_geom::NoStore;
+use indigo_igs::Limits;
+use indigo_scene::{LoadOptions, Loaded, load};
 
 /// The files of a folder below `seeds`, in order of their names.
 fn seeds(folder: &str) -> Vec<Vec<u8>> {
@@ -87,10 +88,17 @@ impl Resolver for Memory<'_> {
 #[test]
 fn scene() {
     fuzz(&seeds("scene"), |bytes| {
-        let mut sources = SourceMap::default();
-        let mut sink = Sink::new();
-        let tree = read_scene("scene.igs", &Memory(bytes), &mut sources, &mut sink, &Limits::default());
-        assert!(tree.is_some() || sink.has_errors(), "nothing was read, and nothing was said of it");
+        let options = LoadOptions {
+            resolver: &Memory(bytes),
+            trees: &NoStore,
+            inifile: None,
+            overrides: &[],
+            limits: Limits::default(),
+            // Trees are left out: a number in a damaged file may ask for a large picture, and they take time.
+            check_only: true,
+        };
+        let Loaded { sources, sink, settings, .. } = load("scene.igs", &options);
+        assert!(settings.is_some() || sink.has_errors(), "nothing was read, and nothing was said of it");
         for diagnostic in sink.diagnostics() {
             let json = indigo_diag::to_json(diagnostic, &sources);
             assert!(!json.is_empty());

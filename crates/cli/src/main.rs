@@ -93,7 +93,7 @@ fn answer(text: &str, console: &mut Console) -> u8 {
 }
 
 fn load_scene(path: &str, arguments: &Arguments) -> Loaded {
-    let resolver = DiskResolver::new(paths::resource_directories());
+    let resolver = DiskResolver::new(paths::resource_directories()).for_scene(path);
     let trees = DiskTreeStore::new(paths::tree_cache());
     let inifile = paths::inifile();
     let options = LoadOptions {
@@ -135,7 +135,8 @@ fn json_report(scene: &str, loaded: &Loaded) -> String {
     lines.chain([summary_to_json(scene, &loaded.sink)]).map(|line| line + "\n").collect()
 }
 
-fn count(n: usize, what: &str) -> String {
+/// "1 error", "2 errors".
+pub fn count(n: usize, what: &str) -> String {
     format!("{n} {what}{}", if n == 1 { "" } else { "s" })
 }
 

@@ -2,7 +2,7 @@
 
 use crate::console::{Console, progress_text, scaled};
 use crate::flags::Arguments;
-use crate::{FAILED, RENDERED, VERSION, paths};
+use crate::{FAILED, RENDERED, VERSION, count, paths};
 use indigo_render::output::{OutputPaths, SaveError, SaveJob, Saving};
 use indigo_render::{Event, Halt, HaltReason, Options, Progress, Session};
 use indigo_scene::schema::settings::MOST_THREADS;
@@ -93,12 +93,13 @@ impl Picture {
 fn describe(scene: &Scene, console: &mut Console) {
     let s = scene.stats();
     console.say(&format!(
-        "{}: {} triangles, {} objects, {} lights, {} materials; {} × {} pixels",
+        "{}: {} triangle{}, {}, {}, {}; {} × {} pixels",
         scene.output.scene_path,
         scaled(s.geometry.triangles as f64),
-        s.objects,
-        s.lights,
-        s.materials,
+        if s.geometry.triangles == 1 { "" } else { "s" },
+        count(s.objects, "object"),
+        count(s.lights, "light"),
+        count(s.materials, "material"),
         scene.film.size.width(),
         scene.film.size.height(),
     ));

@@ -46,10 +46,12 @@ fn bind_child(child: Element, parent: &str, node: &mut Node, implied: &mut Vec<E
             ));
             node.slots[i].clear();
         }
-        match bind_field(child, field, sink) {
-            Some(slot) => node.slots[i].push(slot),
-            None => node.faulty.push(field.name),
+        let errors = sink.error_count();
+        let slot = bind_field(child, field, sink);
+        if slot.is_none() || sink.error_count() > errors {
+            node.faulty.push(field.name);
         }
+        node.slots[i].extend(slot);
         return;
     }
     if let Some(alternatives) = &block.alternatives {

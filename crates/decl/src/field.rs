@@ -271,7 +271,7 @@ pub enum Presence {
 /// Which numbers are allowed; for several numbers it holds for each.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Range {
-    /// All finite ones.
+    /// All that the renderer can hold; see [`LARGEST`](Self::LARGEST).
     Any,
     /// Greater than.
     Above(f64),
@@ -282,12 +282,15 @@ pub enum Range {
 }
 
 impl Range {
+    /// The largest number that the renderer can hold, since it computes in single precision.
+    pub const LARGEST: f64 = f32::MAX as f64;
+
     /// Whether a number is allowed.
     pub fn allows(self, v: f64) -> bool {
         match self {
-            Self::Any => v.is_finite(),
-            Self::Above(lo) => v > lo && v.is_finite(),
-            Self::AtLeast(lo) => v >= lo && v.is_finite(),
+            Self::Any => v.abs() <= Self::LARGEST,
+            Self::Above(lo) => v > lo && v <= Self::LARGEST,
+            Self::AtLeast(lo) => v >= lo && v <= Self::LARGEST,
             Self::Within(lo, hi) => (lo..=hi).contains(&v),
         }
     }
@@ -304,7 +307,7 @@ impl Range {
 
     /// An allowed number near a forbidden one: the stand-in with which reading goes on.
     pub fn nearest(self, v: f64) -> f64 {
-        let v = if v.is_finite() { v } else { 0.0 };
+        let v = if v.abs() <= Self::LARGEST { v } else { 0.0 };
         match self {
             Self::Any => v,
             Self::Above(lo) if v <= lo => lo + 1.0,

@@ -19,7 +19,7 @@ pub struct Node {
     pub(crate) alternative: Option<Box<Node>>,
     /// Whether its absence was reported already, in better words.
     pub(crate) alternative_reported: bool,
-    /// Fields that were given but so wrong that nothing came of them, which was reported.
+    /// Fields that were given but wrong, which was reported: a stand-in or nothing came of them.
     pub(crate) faulty: Vec<&'static str>,
     /// Whether lowering made use of this element.
     pub(crate) used: Cell<bool>,
@@ -71,6 +71,11 @@ impl Node {
     /// Whether the field was given.
     pub fn has(&self, field: &str) -> bool {
         !self.slots[self.index(field)].is_empty()
+    }
+
+    /// Whether what the field was given is wrong, which was reported; its value is but a stand-in.
+    pub fn is_faulty(&self, field: &str) -> bool {
+        self.faulty.contains(&field)
     }
 
     /// The place of a field, or of the whole element where the field was not given.
@@ -226,6 +231,25 @@ impl Node {
             Content::Mesh(m) => Some(&**m),
             Content::Value(_) | Content::Node(_) => None,
         })
+    }
+
+    /// Calls `visit` with each reference to something defined elsewhere: what it refers to ("material"), the name,
+    /// and where it stands. Nothing counts as read by it.
+    pub fn visit_references(&self, visit: &mut impl FnMut(&'static str, &str, Span)) {
+        for (field, slots) in self.block.fields.iter().zip(&self.slots) {
+            for slot in slots {
+                match (&slot.content, field.kind) {
+                    (Content::Node(inner), _) => inner.visit_references(visit),
+                    (Content::Value(Value::Text(name)), Kind::Reference(what)) => {
+                        visit(what, name, slot.span)
+                    }
+                    _ => {}
+                }
+            }
+        }
+        if let Some(alternative) = &self.alternative {
+            alternative.visit_references(visit);
+        }
     }
 
     /// Marks everything in this element as used: lowering knows that none of it has an effect here,

@@ -1,6 +1,6 @@
 //! Text to typed values.
 
-use crate::field::{Field, Kind, Presence};
+use crate::field::{Field, Kind, Presence, Range};
 
 /// A value without children, read from text.
 #[derive(Clone, Debug, PartialEq)]
@@ -108,8 +108,17 @@ fn numbers(text: &str, count: usize) -> Result<Vec<f64>, ValueError> {
 }
 
 fn ranged(field: &Field, value: Value, numbers: &[f64]) -> (Value, Option<ValueError>) {
+    if let Some(error) = too_large(numbers) {
+        return (value, Some(error));
+    }
     let ok = numbers.iter().all(|&v| field.range.allows(v));
     (value, (!ok).then(|| ValueError::Range(field.range.words())))
+}
+
+/// What the range of a field need not say.
+fn too_large(numbers: &[f64]) -> Option<ValueError> {
+    let words = format!("must be at most {:.1e} in size", Range::LARGEST);
+    numbers.iter().any(|v| v.abs() > Range::LARGEST).then_some(ValueError::Range(words))
 }
 
 fn parse_int(field: &Field, text: &str) -> (Value, Option<ValueError>) {
@@ -129,7 +138,10 @@ fn parse_matrix(text: &str) -> (Value, Option<ValueError>) {
         _ => Err(e),
     });
     match v {
-        Ok(v) => (Value::Matrix3(std::array::from_fn(|i| v[i])), None),
+        Ok(v) => match too_large(&v) {
+            None => (Value::Matrix3(std::array::from_fn(|i| v[i])), None),
+            error => (Value::Matrix3(IDENTITY), error),
+        },
         Err(e) => (Value::Matrix3(IDENTITY), Some(e)),
     }
 }
@@ -137,7 +149,6 @@ fn parse_matrix(text: &str) -> (Value, Option<ValueError>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::field::Range;
 
     const POSITIVE: Field = Field::new("x", Kind::Real, Presence::Required, "").range(Range::Above(0.0));
 
@@ -158,6 +169,23 @@ mod tests {
             assert!(error.is_some(), "{text}");
             assert!(matches!(value, Value::Real(v) if v > 0.0), "{text}");
         }
+    }
+
+    #[test]
+    fn what_single_precision_cannot_hold_is_out_of_range() {
+        let any = Field::new("v", Kind::Vec3, Presence::Required, "");
+        assert_eq!(parse(&any, "0 -3.4e38 0").1, None);
+        let (value, error) = parse(&any, "1e40 0 0");
+        assert_eq!(value, Value::Vec3([0.0; 3]));
+        assert_eq!(error, Some(ValueError::Range("must be at most 3.4e38 in size".to_owned())));
+        for (field, text) in [(&POSITIVE, "1e300"), (&POSITIVE, "-1e39")] {
+            assert!(
+                matches!(parse(field, text), (Value::Real(v), Some(ValueError::Range(_))) if v == 1.0),
+                "{text}"
+            );
+        }
+        let matrix = Field::new("m", Kind::Matrix3, Presence::Required, "");
+        assert!(parse(&matrix, "1e39 0 0 0 1 0 0 0 1").1.is_some());
     }
 
     #[test]

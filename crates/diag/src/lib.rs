@@ -12,4 +12,4 @@ mod suggest;
 pub use render::{Style, summary_to_json, to_json, to_text};
 pub use sink::{Diagnostic, Severity, Sink};
 pub use source::{Position, SourceId, SourceMap, Span, Spanned};
-pub use suggest::nearest;
+pub use suggest::{Candidates, nearest};

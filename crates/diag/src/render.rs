@@ -1,6 +1,7 @@
 //! Diagnostics as text for people and as JSON for programs.
 
-use crate::{Diagnostic, Severity, Sink, SourceMap};
+use crate::{Diagnostic, Severity, Sink, SourceMap, Span};
+use std::borrow::Cow;
 use std::fmt::Write as _;
 
 /// How text is decorated.
@@ -35,19 +36,21 @@ pub fn to_text(diagnostic: &Diagnostic, sources: &SourceMap, style: Style) -> St
     let mut out = String::new();
     if let Some(span) = diagnostic.span {
         let p = sources.position(span);
-        let _ = write!(out, "{bold}{}:{}:{}:{off} ", sources.name(span.source), p.line, p.column);
+        let name = shortened(sources.name(span.source));
+        let _ = write!(out, "{bold}{name}:{}:{}:{off} ", p.line, p.column);
     }
-    let _ = writeln!(out, "{colour}{word}[{}]{off}: {bold}{}{off}", diagnostic.code, diagnostic.message);
+    let message = shortened(&diagnostic.message);
+    let _ = writeln!(out, "{colour}{word}[{}]{off}: {bold}{message}{off}", diagnostic.code);
     if let Some(span) = diagnostic.span {
         excerpt(&mut out, diagnostic, sources, span, (colour, dim, off));
     } else if let Some(label) = &diagnostic.label {
-        let _ = writeln!(out, "  = {label}");
+        let _ = writeln!(out, "  = {}", shortened(label));
     }
     for note in &diagnostic.notes {
-        let _ = writeln!(out, "  = note: {note}");
+        let _ = writeln!(out, "  = note: {}", shortened(note));
     }
     if let Some(hint) = &diagnostic.hint {
-        let _ = writeln!(out, "  = hint: {hint}");
+        let _ = writeln!(out, "  = hint: {}", shortened(hint));
     }
     include_chain(&mut out, diagnostic, sources);
     out
@@ -57,7 +60,7 @@ fn excerpt(
     out: &mut String,
     diagnostic: &Diagnostic,
     sources: &SourceMap,
-    span: crate::Span,
+    span: Span,
     (colour, dim, off): (&str, &str, &str),
 ) {
     let number = sources.position(span).line;
@@ -76,20 +79,44 @@ fn excerpt(
     );
     match &diagnostic.label {
         Some(label) => {
-            let _ = writeln!(out, " {colour}{label}{off}");
+            let _ = writeln!(out, " {colour}{}{off}", shortened(label));
         }
         None => out.push('\n'),
     }
 }
 
+/// Of a long chain of includes so many at each end are shown: where the fault is, and where it all began.
+const CHAIN_ENDS: usize = 2;
+
 fn include_chain(out: &mut String, diagnostic: &Diagnostic, sources: &SourceMap) {
-    let mut from = diagnostic.span.and_then(|s| sources.included_from(s.source));
-    while let Some(span) = from {
-        let p = sources.position(span);
-        let _ =
-            writeln!(out, "  = note: included from {}:{}:{}", sources.name(span.source), p.line, p.column);
-        from = sources.included_from(span.source);
+    let first = diagnostic.span.and_then(|s| sources.included_from(s.source));
+    let chain: Vec<Span> = std::iter::successors(first, |s| sources.included_from(s.source)).collect();
+    let hidden = chain.len().saturating_sub(2 * CHAIN_ENDS);
+    for (i, span) in chain.iter().enumerate() {
+        if hidden > 1 && (CHAIN_ENDS..CHAIN_ENDS + hidden).contains(&i) {
+            if i == CHAIN_ENDS {
+                let _ = writeln!(out, "  = note: ... through {hidden} more files ...");
+            }
+            continue;
+        }
+        let (p, name) = (sources.position(*span), shortened(sources.name(span.source)));
+        let _ = writeln!(out, "  = note: included from {name}:{}:{}", p.line, p.column);
     }
+}
+
+/// Longest text that is shown as it is: a message, not somebody's path of thousands of letters.
+const LONGEST: usize = 500;
+/// What is shown of the beginning of a longer one; as much of its end.
+const SHOWN: usize = 200;
+
+/// A text without its middle if it is very long.
+fn shortened(text: &str) -> Cow<'_, str> {
+    let length = text.chars().count();
+    if length <= LONGEST {
+        return text.into();
+    }
+    let part = |skip: usize| text.chars().skip(skip).take(SHOWN).collect::<String>();
+    format!("{} ... {}", part(0), part(length - SHOWN)).into()
 }
 
 /// A diagnostic as one line of JSON.
@@ -147,7 +174,7 @@ fn quoted(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{SourceMap, Span};
+    use crate::SourceMap;
 
     fn map() -> (SourceMap, Span) {
         let mut sources = SourceMap::default();
@@ -185,6 +212,29 @@ mod tests {
         let expected =
             "{\"summary\":{\"file\":\"a \\\"b\\\".igs\",\"errors\":1000,\"warnings\":1,\"not_listed\":1}}";
         assert_eq!(summary_to_json("a \"b\".igs", &sink), expected);
+    }
+
+    #[test]
+    fn very_long_texts_and_chains_are_shortened() {
+        let mut sources = SourceMap::default();
+        let mut from = None;
+        for i in 0..30 {
+            let id = sources.add(&format!("{i}.igs"), b"<include/>".as_slice().into(), from).unwrap();
+            from = Some(Span::new(id, 0, 10));
+        }
+        let path = "very/long/".repeat(500);
+        let d =
+            Diagnostic::error("E0302", from, format!("cannot read {path}x: no such file")).note(path.clone());
+        let text = to_text(&d, &sources, Style::Plain);
+        assert!(text.len() < 1500 && text.contains("error[E0302]: cannot read very/long/"), "{text}");
+        assert!(text.contains("ong/x: no such file\n"), "{text}");
+        let chain: Vec<&str> =
+            text.lines().filter(|l| l.contains("from ") || l.contains("through")).collect();
+        let expected = ["from 28.igs", "from 27.igs", "through 25 more", "from 1.igs", "from 0.igs"];
+        assert_eq!(chain.len(), expected.len(), "{text}");
+        assert!(chain.iter().zip(expected).all(|(line, part)| line.contains(part)), "{chain:?}");
+        // Programs get all of it.
+        assert!(to_json(&d, &sources).contains(&path));
     }
 
     #[test]

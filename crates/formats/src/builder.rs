@@ -36,10 +36,10 @@ impl MeshBuilder {
         self.mesh.notes.push(text.into());
     }
 
-    /// A note that `count` of something happened; none if nothing did.
+    /// A note of something and how often it is there; none if it is not.
     pub(crate) fn note_count(&mut self, count: usize, what: &str) {
         if count > 0 {
-            self.note(format!("{count} {what}"));
+            self.note(format!("{what}: {count}"));
         }
     }
 
@@ -71,10 +71,10 @@ impl MeshBuilder {
 
     /// The mesh, with unit normals and with notes of what was mended.
     pub(crate) fn finish(mut self) -> MeshData {
-        self.note_count(self.few_cornered, "faces of fewer than three corners were left out");
+        self.note_count(self.few_cornered, "faces of fewer than three corners, left out");
         self.note_count(
             self.triangulator.rough,
-            "faces are concave and cross themselves or are too large to be cut exactly; they were cut as fans",
+            "concave faces that cross themselves or are too large to be cut exactly, cut as fans",
         );
         self.mend_normals();
         if self.mesh.triangles.is_empty() {
@@ -98,9 +98,9 @@ impl MeshBuilder {
             }
             *normal = normalised;
         }
-        self.note_count(scaled, "normals were not of unit length and were normalised");
+        self.note_count(scaled, "normals of another length than 1, normalised");
         if missing > 0 {
-            self.note_count(missing, "normals have no direction; those of the surface took their place");
+            self.note_count(missing, "normals without direction, replaced by those of the surface");
             fill_normals(&mut self.mesh);
         }
     }

@@ -186,7 +186,7 @@ impl Reader {
             self.builder.mesh.uv_sets = vec![self.welder.vertices.iter().map(uv).collect()];
             self.builder.mesh.uv_names = vec![("default".to_owned(), 0)];
             let without = self.welder.vertices.iter().filter(|corner| corner[1] == NONE).count();
-            self.builder.note_count(without, "vertices have no texture coordinates and got 0 0");
+            self.builder.note_count(without, "vertices without texture coordinates, given 0 0");
         }
         if self.welder.vertices.iter().any(|corner| corner[2] != NONE) {
             let normal = |corner: &Corner| self.normals.get(corner[2] as usize).copied().unwrap_or_default();
@@ -195,7 +195,7 @@ impl Reader {
             fill_bare_corners(&mut self.builder, &bare);
         }
         if self.unknown > 1 {
-            self.builder.note_count(self.unknown, "lines hold statements that are not of the .obj format");
+            self.builder.note_count(self.unknown, "lines with statements that are not of the .obj format");
         }
         self.builder.finish()
     }
@@ -208,7 +208,7 @@ fn fill_bare_corners(builder: &mut MeshBuilder, bare: &[bool]) {
     if count == 0 {
         return;
     }
-    builder.note_count(count, "vertices have no normal; they got those of their faces");
+    builder.note_count(count, "vertices without a normal, given those of their faces");
     let mesh = &mut builder.mesh;
     let mut split: HashMap<(u32, [u32; 3]), u32> = HashMap::new();
     let mut taken = vec![false; bare.len()];

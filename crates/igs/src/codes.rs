@@ -23,7 +23,7 @@ indigo_decl::codes! {
     INCLUDE_CYCLE = "E0010", "<include><pathname>scene.igs</pathname></include>";
     /// A scene that is too large, too deeply nested, or has too many files.
     LIMIT = "E0011", "(elements within elements, more than 100 deep)";
-    /// A file in another encoding than UTF-8.
+    /// A file in another encoding than UTF-8, or no text at all.
     ENCODING = "E0012", "<?xml version=\"1.0\" encoding=\"utf-16\"?>";
     /// Bytes that are not UTF-8, read as Latin-1.
     NOT_UTF8 = "W0001", "(an ä written as the single byte E4)";

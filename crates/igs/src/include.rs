@@ -10,7 +10,7 @@ pub static INCLUDE: Block = Block::new(
         "pathname",
         Kind::Path,
         Presence::Required,
-        "The file, relative to the file that includes it.",
+        "The file, relative to the scene or else to the file that includes it.",
     )],
 )
 .with_later(&[Later::new("offset_uids", "3.0")])

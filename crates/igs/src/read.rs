@@ -3,9 +3,10 @@
 use crate::codes;
 use crate::include::INCLUDE;
 use crate::limits::Limits;
-use crate::tree;
+use crate::{text, tree};
 use indigo_decl::{Element, Resolved, Resolver, bind};
 use indigo_diag::{Diagnostic, Sink, SourceMap, Span};
+use std::sync::Arc;
 
 /// The roots that a scene may have.
 const ROOTS: [&str; 2] = ["scene", "scenedata"];
@@ -40,16 +41,47 @@ pub fn read_document(
     reader.document(&file, None)
 }
 
+/// Whether two files are one, though it may be written in two ways: with detours, or with letters of another case on
+/// a disk that does not tell them apart.
+fn is_same_file(a: &Resolved, b: &Resolved) -> bool {
+    let (first, second) = (without_detours(&a.path), without_detours(&b.path));
+    first == second || first.eq_ignore_ascii_case(&second) && a.bytes == b.bytes
+}
+
+/// A path without `.` and without steps down that are taken back.
+fn without_detours(path: &str) -> String {
+    let mut parts: Vec<&str> = vec![];
+    for (i, part) in path.split(['/', '\\']).enumerate() {
+        match part {
+            "." => {}
+            "" if i > 0 => {}
+            ".." if parts.last().is_some_and(|last| !matches!(*last, ".." | "")) => drop(parts.pop()),
+            _ => parts.push(part),
+        }
+    }
+    parts.join("/")
+}
+
+/// A circle of files, of which a large one is told by its ends.
+fn in_short<'p>(circle: &[&'p str]) -> Vec<&'p str> {
+    match circle {
+        &[first, second, _, .., before, last] => vec![first, second, "...", before, last],
+        _ => circle.to_vec(),
+    }
+}
+
 struct Reader<'a> {
     resolver: &'a dyn Resolver,
     sources: &'a mut SourceMap,
     sink: &'a mut Sink,
     limits: &'a Limits,
     /// The files being read, from the scene to the innermost include.
-    chain: Vec<String>,
+    chain: Vec<Resolved>,
     bytes_left: u64,
     files_left: usize,
     elements_left: usize,
+    /// Whether a limit was exceeded, which was reported.
+    exceeded: bool,
 }
 
 impl<'a> Reader<'a> {
@@ -68,6 +100,7 @@ impl<'a> Reader<'a> {
             bytes_left: limits.total_bytes,
             files_left: limits.files,
             elements_left: limits.elements,
+            exceeded: false,
         }
     }
 
@@ -82,8 +115,24 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// Says that a limit is exceeded, the first time: files that include each other may do so a thousand times.
+    fn exceed(&mut self, span: Option<Span>, message: String) {
+        if !std::mem::replace(&mut self.exceeded, true) {
+            self.sink.push(Diagnostic::error(codes::LIMIT, span, message));
+        }
+    }
+
     /// Reads the text of a file that was found.
     fn document(&mut self, file: &Resolved, span: Option<Span>) -> Option<Element> {
+        if text::is_binary(&file.bytes) {
+            // Known by name alone: no line of it is worth showing.
+            let at = self.sources.add(&file.path, Arc::from([]), span).map(|source| Span::new(source, 0, 0));
+            self.sink.push(
+                Diagnostic::error(codes::ENCODING, at, "this is not a text file")
+                    .expected("expected a scene in XML"),
+            );
+            return None;
+        }
         let size = file.bytes.len() as u64;
         let most = self.limits.file_bytes.min(u64::from(u32::MAX));
         let exceeded = if size > most {
@@ -99,13 +148,13 @@ impl<'a> Reader<'a> {
             None
         };
         if let Some(message) = exceeded {
-            self.sink.push(Diagnostic::error(codes::LIMIT, span, message));
+            self.exceed(span, message);
             return None;
         }
         self.bytes_left -= size;
         self.files_left -= 1;
         let Some(source) = self.sources.add(&file.path, file.bytes.clone(), span) else {
-            self.sink.push(Diagnostic::error(codes::LIMIT, span, "there are too many files"));
+            self.exceed(span, "there are too many files".to_owned());
             return None;
         };
         let errors = self.sink.error_count();
@@ -132,7 +181,7 @@ impl<'a> Reader<'a> {
             );
             return None;
         }
-        self.chain.push(file.path.clone());
+        self.chain.push(file.clone());
         if root.children.iter().any(|c| INCLUDE.is_called(&c.name)) {
             let mut children = Vec::with_capacity(root.children.len());
             for child in root.children {
@@ -157,16 +206,18 @@ impl<'a> Reader<'a> {
         }
         let span = pathname.span;
         if self.chain.len() > self.limits.include_depth {
-            let message = format!("includes are nested deeper than {}", self.limits.include_depth);
-            self.sink.push(Diagnostic::error(codes::LIMIT, span, message));
+            self.exceed(Some(span), format!("includes are nested deeper than {}", self.limits.include_depth));
             return vec![];
         }
-        let from = self.chain.last().cloned().unwrap_or_default();
+        if self.files_left == 0 && self.exceeded || self.elements_left == 0 {
+            // Nothing more can be read, and it was said.
+            return vec![];
+        }
+        let from = self.chain.last().map_or_else(String::new, |file| file.path.clone());
         let Some(file) = self.resolve(&pathname.value, &from, Some(span)) else { return vec![] };
-        if let Some(first) = self.chain.iter().position(|p| *p == file.path) {
-            let mut circle: Vec<&str> = self.chain.iter().skip(first).map(String::as_str).collect();
-            circle.push(&file.path);
-            let message = format!("{} includes itself: {}", file.path, circle.join(" -> "));
+        if let Some(first) = self.chain.iter().position(|f| is_same_file(f, &file)) {
+            let circle: Vec<&str> = self.chain.iter().skip(first).chain([&file]).map(|f| &*f.path).collect();
+            let message = format!("{} includes itself: {}", file.path, in_short(&circle).join(" -> "));
             self.sink.push(Diagnostic::error(codes::INCLUDE_CYCLE, span, message));
             return vec![];
         }

@@ -29,9 +29,20 @@ impl Encoding {
     }
 }
 
-/// Reports a file in UTF-16 or UTF-32, of which nothing can be read.
+/// Whether a file is in UTF-16 or UTF-32, of which nothing can be read: by its mark, or the `<` it begins with.
 pub(crate) fn is_wide(bytes: &[u8]) -> bool {
-    matches!(bytes, [0xFE, 0xFF, ..] | [0xFF, 0xFE, ..] | [0, _, ..] | [_, 0, ..])
+    matches!(bytes, [0xFE, 0xFF, ..] | [0xFF, 0xFE, ..] | [0, b'<', ..] | [b'<', 0, ..] | [0, 0, 0, b'<', ..])
+}
+
+/// How much of a file is looked at to see whether it is text.
+const LOOKED_AT: usize = 4096;
+
+/// Whether a file is no text at all but a picture, say: it does not begin like a scene, and holds bytes that no text
+/// has.
+pub(crate) fn is_binary(bytes: &[u8]) -> bool {
+    let ink = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes).trim_ascii_start();
+    let control = |b: &u8| b.is_ascii_control() && !b.is_ascii_whitespace();
+    !ink.starts_with(b"<") && !is_wide(bytes) && bytes.iter().take(LOOKED_AT).any(control)
 }
 
 /// Text of some bytes that begin at `offset` of a file. Line ends become `\n`; bytes that are not
@@ -169,6 +180,20 @@ mod tests {
         assert_eq!(read(b"a &lt;&amp;&#65;&#x42;&gt; b"), ("a <&AB> b".to_owned(), 0));
         assert_eq!(read(b"&&lt;"), ("&<".to_owned(), 1));
         assert_eq!(read(b"&lol; &#0; &#xD800; &#; &"), ("&lol; &#0; &#xD800; &#; &".to_owned(), 5));
+    }
+
+    #[test]
+    fn pictures_are_not_text() {
+        for bytes in
+            [&b"\x89PNG\r\n\x1A\n\0\0\0\rIHDR"[..], b"\xFF\xD8\xFF\xE0\0\x10JFIF", b"PK\x03\x04\x14\0"]
+        {
+            assert!(is_binary(bytes) && !is_wide(bytes), "{bytes:?}");
+        }
+        for bytes in
+            [&b"<scene>\0</scene>"[..], b" \n<scene/>", b"\xEF\xBB\xBF<scene/>", b"scene", b"", b"<\0s\0"]
+        {
+            assert!(!is_binary(bytes), "{bytes:?}");
+        }
     }
 
     #[test]

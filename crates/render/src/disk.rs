@@ -8,13 +8,15 @@ use std::fs::File;
 use std::io::{Read, Write as _};
 use std::path::{Path, PathBuf};
 
-/// Finds files beside the file that names them, then in resource directories.
+/// Finds files beside the scene, then beside the file that names them (which the scene may include), then in resource
+/// directories.
 ///
 /// `\` and `/` are alike. An absolute path that does not exist (scenes travel between machines) is
 /// looked for by its last part beside the scene. Where no file has exactly the name, one that differs
 /// in case alone does.
 #[derive(Clone, Debug)]
 pub struct DiskResolver {
+    scene: Option<PathBuf>,
     resource_directories: Vec<PathBuf>,
     limit: u64,
 }
@@ -25,7 +27,13 @@ impl DiskResolver {
 
     /// A resolver that also looks into these directories.
     pub fn new(resource_directories: Vec<PathBuf>) -> Self {
-        Self { resource_directories, limit: Self::DEFAULT_LIMIT }
+        Self { scene: None, resource_directories, limit: Self::DEFAULT_LIMIT }
+    }
+
+    /// The same resolver for what is named anywhere in a scene and the files that it includes.
+    #[must_use]
+    pub fn for_scene(self, path: impl Into<PathBuf>) -> Self {
+        Self { scene: Some(path.into()), ..self }
     }
 
     fn candidates(&self, path: &str, from: &str) -> Vec<PathBuf> {
@@ -33,23 +41,28 @@ impl DiskResolver {
         if from.is_empty() {
             return vec![PathBuf::from(path)];
         }
-        let beside = Path::new(from).parent().unwrap_or(Path::new("")).to_path_buf();
+        let directory = |file: &Path| file.parent().unwrap_or(Path::new("")).to_path_buf();
+        let mut beside: Vec<PathBuf> =
+            self.scene.as_deref().into_iter().chain([Path::new(from)]).map(directory).collect();
+        beside.dedup();
         let has_drive = path.as_bytes().get(1) == Some(&b':');
         if has_drive || path.starts_with('/') {
             let name = path.rsplit('/').next().unwrap_or_default().to_owned();
-            return vec![PathBuf::from(path), beside.join(name)];
+            return [PathBuf::from(path)].into_iter().chain(beside.iter().map(|d| d.join(&name))).collect();
         }
-        std::iter::once(&beside).chain(&self.resource_directories).map(|d| d.join(&path)).collect()
+        beside.iter().chain(&self.resource_directories).map(|d| d.join(&path)).collect()
     }
 
     fn read_file(&self, path: &Path) -> Result<Resolved, ResolveError> {
         let shown = path.to_string_lossy().into_owned();
         let unreadable = |reason: String| ResolveError::Unreadable { path: shown.clone(), reason };
+        let known = std::fs::metadata(path).map_err(|e| unreadable(e.to_string()))?;
+        if !known.is_file() {
+            // To open a pipe may wait for ever, and a device may have no end.
+            return Err(unreadable("not a regular file".to_owned()));
+        }
         let file = File::open(path).map_err(|e| unreadable(e.to_string()))?;
         let meta = file.metadata().map_err(|e| unreadable(e.to_string()))?;
-        if !meta.is_file() {
-            return Err(unreadable("not a file".to_owned()));
-        }
         if meta.len() > self.limit {
             return Err(ResolveError::TooLarge { size: meta.len(), limit: self.limit });
         }
@@ -188,6 +201,49 @@ mod tests {
         assert_eq!(text("nkdata/Au.nk").unwrap(), b"gold");
         assert!(matches!(text("missing.png"), Err(ResolveError::NotFound { looked }) if looked.len() == 2));
         assert!(matches!(text("Maps"), Err(ResolveError::Unreadable { .. })));
+        std::fs::remove_dir_all(root).unwrap();
+    }
+
+    #[test]
+    fn an_included_file_names_what_is_beside_the_scene_before_what_is_beside_itself() {
+        let root = scratch("included");
+        for folder in ["parts", "resources"] {
+            std::fs::create_dir_all(root.join(folder)).unwrap();
+        }
+        for (file, text) in [
+            ("wood.png", "scene"),
+            ("parts/wood.png", "parts"),
+            ("parts/cloth.png", "parts"),
+            ("resources/cloth.png", "resources"),
+            ("resources/au.nk", "resources"),
+        ] {
+            std::fs::write(root.join(file), text).unwrap();
+        }
+        let resolver = DiskResolver::new(vec![root.join("resources")]).for_scene(root.join("scene.igs"));
+        let from = root.join("parts/included.igs").display().to_string();
+        let found =
+            |path: &str| String::from_utf8(resolver.read(path, &from).unwrap().bytes.to_vec()).unwrap();
+        assert_eq!(
+            ["wood.png", "cloth.png", "au.nk", "C:\\old\\cloth.png"].map(found),
+            ["scene", "parts", "resources", "parts"]
+        );
+        std::fs::remove_dir_all(root).unwrap();
+    }
+
+    /// A pipe that nobody writes to, and a device without end.
+    #[cfg(unix)]
+    #[test]
+    fn only_regular_files_are_read() {
+        let root = scratch("pipe");
+        let pipe = root.join("pipe.obj").display().to_string();
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        let resolver = DiskResolver::new(vec![]);
+        for path in [&*pipe, "/dev/zero"] {
+            let Err(ResolveError::Unreadable { reason, .. }) = resolver.read(path, "") else {
+                panic!("{path}")
+            };
+            assert_eq!(reason, "not a regular file");
+        }
         std::fs::remove_dir_all(root).unwrap();
     }
 

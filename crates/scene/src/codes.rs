@@ -2,45 +2,45 @@
 
 indigo_decl::codes! {
     /// A switch that is on by default but that nothing renders yet.
-    DEFAULT_NOT_RENDERED = "W0301";
+    DEFAULT_NOT_RENDERED = "W0301", "(a setting that is on by default and that this version does not render)";
     /// A name that is defined twice; the last definition counts.
-    DUPLICATE_NAME = "W0302";
+    DUPLICATE_NAME = "W0302", "<material><name>a</name><null_material/></material><material><name>a</name><null_material/></material>";
     /// Something about a mesh or picture file that its user should know.
-    FILE_NOTE = "W0303";
+    FILE_NOTE = "W0303", "<mesh><name>m</name><embedded></embedded></mesh><model><pos>0 0 0</pos><scale>1</scale><mesh_name>m</mesh_name></model>";
     /// The sensor's aspect ratio is not the picture's.
-    ASPECT_RATIO = "W0304";
+    ASPECT_RATIO = "W0304", "<renderer_settings><width>800</width><height>100</height></renderer_settings>";
     /// A scene without `tonemapping`.
-    NO_TONEMAPPING = "W0305";
+    NO_TONEMAPPING = "W0305", "(a scene without `tonemapping`)";
     /// A scene without light.
-    NO_LIGHT = "W0306";
+    NO_LIGHT = "W0306", "(a scene without `background`, `skylight`, `env_map`, `meshlight` and `rectanglelight`)";
     /// The normal of a plane is not of length 1.
-    NOT_UNIT = "W0307";
+    NOT_UNIT = "W0307", "<plane><normal>0 0 2</normal><dist>0</dist><material_name>white</material_name></plane>";
     /// Texels of an environment map that cannot be light.
-    BAD_TEXELS = "W0308";
+    BAD_TEXELS = "W0308", "(an environment map with negative texels)";
     /// A turbidity beyond what the model of the sky knows.
-    TURBIDITY = "W0309";
+    TURBIDITY = "W0309", "<skylight><sundir>0 0.6 1</sundir><turbidity>30</turbidity></skylight>";
     /// A name that nothing defines.
-    UNKNOWN_NAME = "E0301";
+    UNKNOWN_NAME = "E0301", "<sphere><center>0 0 0</center><radius>1</radius><material_name>whiet</material_name></sphere>";
     /// A file that cannot be had.
-    MISSING_FILE = "E0302";
+    MISSING_FILE = "E0302", "<env_map><latlong><path>nowhere.exr</path><gain>1</gain></latlong></env_map>";
     /// A file that cannot be understood.
-    BAD_FILE = "E0303";
+    BAD_FILE = "E0303", "<env_map><latlong><path>scene.igs</path><gain>1</gain></latlong></env_map>";
     /// A transformation that cannot be inverted, or directions that span no plane.
-    SINGULAR = "E0304";
+    SINGULAR = "E0304", "<plane><normal>0 0 0</normal><dist>0</dist><material_name>white</material_name></plane>";
     /// A scene without a camera.
-    NO_CAMERA = "E0305";
+    NO_CAMERA = "E0305", "(a scene without `camera`)";
     /// Geometry that cannot be built.
-    GEOMETRY = "E0306";
+    GEOMETRY = "E0306", "<sphere><center>0 0 0</center><radius>1e30</radius><material_name>white</material_name></sphere>";
     /// A texture on a mesh without the texture coordinates that it asks for.
-    NO_UV_SET = "E0307";
+    NO_UV_SET = "E0307", "(a material with `uv_set` on a mesh that does not expose a set of that name)";
     /// A lamp whose power is given but that has no light to scale.
-    NO_FLUX = "E0308";
+    NO_FLUX = "E0308", "<rectanglelight><pos>0 0 3</pos><width>1</width><height>1</height><spectrum><uniform><value>0</value></uniform></spectrum><efficacy_scale><power_drawn>100</power_drawn><overall_luminous_efficacy>17.5</overall_luminous_efficacy></efficacy_scale></rectanglelight>";
     /// A name of a white that is not known.
-    UNKNOWN_WHITE = "E0309";
+    UNKNOWN_WHITE = "E0309", "<camera><pos>0 0 0</pos><up>0 0 1</up><forwards>0 1 0</forwards><aperture_radius>0.001</aperture_radius><focus_distance>3</focus_distance><aspect_ratio>1.3333</aspect_ratio><sensor_width>0.036</sensor_width><lens_sensor_dist>0.02</lens_sensor_dist><white_balance>D66</white_balance></camera>";
     /// A picture or a region of impossible size.
-    PICTURE_SIZE = "E0310";
+    PICTURE_SIZE = "E0310", "<renderer_settings><width>200000</width></renderer_settings>";
     /// A plane where light is traced from both ends.
-    PLANE_BIDIRECTIONAL = "E0311";
+    PLANE_BIDIRECTIONAL = "E0311", "<renderer_settings><bidirectional>true</bidirectional></renderer_settings><plane><normal>0 0 1</normal><dist>0</dist><material_name>white</material_name></plane>";
     /// More media than can be told apart.
-    TOO_MANY_MEDIA = "E0320";
+    TOO_MANY_MEDIA = "E0320", "(more than 65535 media)";
 }

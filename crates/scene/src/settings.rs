@@ -82,6 +82,11 @@ impl Settings {
         self.deciding(field).1.span_of(field)
     }
 
+    /// Whether what decides a setting is wrong, which was reported; its value is but a stand-in.
+    pub fn is_faulty(&self, field: &str) -> bool {
+        self.deciding(field).1.is_faulty(field)
+    }
+
     /// A truth value.
     pub fn bool(&self, field: &str) -> bool {
         self.deciding(field).1.bool(field)

@@ -1,13 +1,16 @@
 //! Damaged scenes: no panic, places for all errors, bounded time and memory.
 
 use indigo_camera::declare::CAMERA;
-use indigo_decl::{Block, ResolveError, Resolved, Resolver, bind, reference};
-use indigo_diag::{Severity, Sink, SourceMap, Style, to_text};
-use indigo_igs::{Limits, read_scene};
+use indigo_decl::{Block, ResolveError, Resolved, Resolver, reference};
+use indigo_diag::{Severity, Sink, Style, to_text};
+use indigo_geom::NoStore;
+use indigo_igs::Limits;
 use indigo_light::kinds::mesh;
 use indigo_math::rng::{Rng, key};
 use indigo_scene::schema::settings::RENDERER_SETTINGS;
 use indigo_scene::schema::{SCENE, tonemapping};
+use indigo_scene::{LoadOptions, Loaded, load};
+use std::time::{Duration, Instant};
 
 struct One(Vec<u8>);
 
@@ -23,14 +26,22 @@ impl Resolver for One {
     }
 }
 
-/// Reads and binds; returns what was found, rendered, and the number of errors.
+/// Loads, but builds no trees; returns what was found, rendered, and the number of errors.
 fn check(bytes: Vec<u8>) -> (Vec<String>, usize) {
-    let (mut sources, mut sink) = (SourceMap::default(), Sink::new());
-    if let Some(root) = read_scene("scene.igs", &One(bytes), &mut sources, &mut sink, &Limits::default()) {
-        bind(root, &SCENE, &mut sink);
-    }
+    let options = LoadOptions {
+        resolver: &One(bytes),
+        trees: &NoStore,
+        inifile: None,
+        overrides: &[],
+        limits: Limits::default(),
+        check_only: true,
+    };
+    let started = Instant::now();
+    let Loaded { sources, sink, .. } = load("scene.igs", &options);
+    // Milliseconds where nothing else runs.
+    assert!(started.elapsed() < Duration::from_secs(10), "{:?}", started.elapsed());
     for d in sink.diagnostics().iter().filter(|d| d.severity == Severity::Error) {
-        let span = d.span.expect("every error of a file has a place");
+        let span = d.span.unwrap_or_else(|| panic!("every error of a file has a place: {}", d.message));
         let position = sources.position(span);
         assert!(position.line >= 1 && position.column >= 1);
         assert!((span.start as usize) <= sources.text(span.source).len());
@@ -91,8 +102,12 @@ fn everything() -> String {
 #[test]
 fn the_scene_to_be_damaged_is_whole_and_has_every_element() {
     let scene = everything();
-    let (found, errors) = check(scene.clone().into_bytes());
-    assert_eq!(errors, 0, "{found:#?}");
+    let (found, _) = check(scene.clone().into_bytes());
+    // It names files that are not there and things that it does not define, but is well formed: binding is silent.
+    let well_formed = |text: &&String| ["[E01", "[E00", "[E02"].iter().any(|code| text.contains(code));
+    let faults: Vec<&String> =
+        found.iter().filter(well_formed).filter(|text| !text.contains("[E0205]")).collect();
+    assert!(faults.is_empty(), "{faults:#?}");
     for block in reference::blocks(&SCENE).into_iter().filter(|b| b.name != "texture") {
         let there = [block.name].iter().chain(block.aliases).any(|n| scene.contains(&format!("<{n}")));
         assert!(there, "<{}>", block.name);
@@ -125,16 +140,17 @@ fn damage(bytes: &mut Vec<u8>, rng: &mut Rng) {
 fn two_hundred_damaged_scenes() {
     let whole = everything().into_bytes();
     let mut rng = Rng::new(key(&[2008]));
-    let mut with_errors = 0;
+    let (undamaged, _) = check(whole.clone());
+    let mut noticed = 0;
     for _ in 0..200 {
         let mut bytes = whole.clone();
         for _ in 0..=rng.below(4) {
             damage(&mut bytes, &mut rng);
         }
-        let (found, errors) = check(bytes);
+        let (found, _) = check(bytes);
         assert!(found.len() <= Sink::LIMIT);
-        with_errors += usize::from(errors > 0);
+        noticed += usize::from(found != undamaged);
     }
     // Some damage falls into a comment, a name or a digit and is no fault.
-    assert!(with_errors > 120, "{with_errors}");
+    assert!(noticed > 120, "{noticed}");
 }

@@ -1,7 +1,9 @@
 //! The declarations themselves: complete, consistent, and documented.
 
 use indigo_decl::codes::Code;
-use indigo_decl::{Block, Element, Kind, Presence, ResolveError, Resolved, Resolver, bind, reference, value};
+use indigo_decl::{
+    Block, Element, Kind, Presence, Range, ResolveError, Resolved, Resolver, bind, reference, value,
+};
 use indigo_diag::{Sink, SourceMap};
 use indigo_igs::{Limits, read_document, read_scene};
 use indigo_scene::schema::{self, SCENE};
@@ -171,6 +173,73 @@ fn every_element_of_the_manual_is_declared() {
         }
     }
     assert_eq!(checked, 236);
+}
+
+/// What the manual says of the numbers of each element, in its order: `>` and `>=` a number, or both ends. Where a
+/// declaration is wider (`max_depth` 0 is what shines straight into the lens) or narrower (see its text), the
+/// declaration's own stands here.
+const RESTRICTIONS: &str = "
+renderer_settings: width >0, height >0, bih_tri_threshold >0, large_mutation_prob 0..1, max_change 0..1, max_depth >=0,
+    max_num_consec_rejections >0, image_save_period >0, frame_upload_period >0, num_threads 1..1024,
+    super_sample_factor >0, display_period >0, ray_origin_nudge_distance >=0
+render_region: x1 >=0, y1 >=0, x2 >0, y2 >0
+skylight: turbidity >0
+latlong: gain >0
+spherical: width >0, gain >0
+linear: scale >=0
+reinhard: pre_scale >=0, post_scale >=0, burn >1
+camera in tonemapping: film_iso >0
+camera: aperture_radius >0, focus_distance >0, aspect_ratio >0, sensor_width >0, lens_sensor_dist >0,
+    exposure_duration >0
+bloom: weight >=0, radius >=0
+generated: num_blades >=3, blade_offset >0, blade_curvature_radius >0
+texture: exponent >0
+phong: ior >=1, exponent >0
+glossy_transparent: exponent >0
+blend: blend_factor 0..1
+oren_nayar: sigma 0..1
+medium: precedence >1
+epidermis: melanin_fraction 0..1, melanin_type_blend 0..1
+dermis: hemoglobin_fraction 0..1
+basic: ior >=1, cauchy_b_coeff >=0
+peak: peak_min >=0, peak_width >0
+blackbody: temperature >0, gain >0
+rgb: gamma >0
+regular_tabulated: start_wavelength >=0, end_wavelength >=0, num_values >=2
+rectanglelight: width >0, height >0
+efficacy_scale: power_drawn >0, overall_luminous_efficacy >0
+exit_portal: scale >0
+meshlight: scale >0
+model: scale >0
+mesh: scale >0
+sphere: radius >0";
+
+#[test]
+fn every_restriction_of_the_manual_is_declared() {
+    let blocks = reference::blocks(&SCENE);
+    let mut checked = 0;
+    for line in RESTRICTIONS.replace(",\n", ",").lines().filter(|l| !l.is_empty()) {
+        let (block, fields) = line.split_once(':').expect("a block");
+        let tone_mapping = block.strip_suffix(" in tonemapping");
+        for field in fields.split(',') {
+            let (name, range) = field.trim().split_once(' ').expect("a field and its range");
+            let number = |text: &str| text.parse::<f64>().expect("a number");
+            let expected = match (range.strip_prefix(">="), range.strip_prefix('>'), range.split_once("..")) {
+                (Some(lo), ..) => Range::AtLeast(number(lo)),
+                (None, Some(lo), _) => Range::Above(number(lo)),
+                (.., Some((lo, hi))) => Range::Within(number(lo), number(hi)),
+                _ => panic!("{range}"),
+            };
+            let has = |b: &&&Block| {
+                b.name == tone_mapping.unwrap_or(block) && b.fields.iter().any(|f| f.name == name)
+            };
+            let found = blocks.iter().find(has).unwrap_or_else(|| panic!("{block} {name}"));
+            let declared = found.fields.iter().find(|f| f.name == name).map(|f| f.range);
+            assert_eq!(declared, Some(expected), "{block} {name}");
+            checked += 1;
+        }
+    }
+    assert_eq!(checked, 66);
 }
 
 fn check_codes(all: &[Code]) {

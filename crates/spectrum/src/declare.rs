@@ -18,7 +18,7 @@ pub static UNIFORM: Block = Block::new(
         Kind::Real,
         Presence::Required,
         "The value: spectral radiance for an emitter, a plain number for a reflectance, per metre for \
-         absorption and scattering. Negative only where the use allows it.",
+         absorption and scattering. At least 0 but for the mean cosine of a phase function.",
     )
     .unit(VALUE)],
 )
@@ -50,7 +50,8 @@ pub static PEAK: Block = Block::new(
     "One value inside a band of wavelengths, another outside.",
     &[
         Field::new("peak_min", Kind::Real, Presence::Required, "Wavelength at which the band begins.")
-            .unit("nm"),
+            .unit("nm")
+            .range(Range::AtLeast(0.0)),
         Field::new("peak_width", Kind::Real, Presence::Required, "Width of the band.")
             .unit("nm")
             .range(Range::Above(0.0)),

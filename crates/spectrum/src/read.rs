@@ -2,7 +2,7 @@
 
 use crate::Spectrum;
 use indigo_decl::{Node, codes};
-use indigo_diag::{Diagnostic, Sink};
+use indigo_diag::{Diagnostic, Sink, Span};
 
 /// What an RGB triple stands for.
 #[derive(Clone, Copy)]
@@ -12,23 +12,49 @@ enum Use {
     Coefficient,
 }
 
-/// A fraction of light: clamped to [0, 1], silently, as the manual says.
+/// The largest radiance (W m^-3 sr^-1) and the largest coefficient (1/m) that a scene may give. The sun has 3e13;
+/// the film refuses contributions beyond 1e30 cd/m², so this leaves a factor of ten million to the weights of paths.
+pub const LARGEST: f64 = 1e27;
+
+/// A fraction of light: clamped to 1, silently, as the manual says. Negative values are errors, but for the noise of
+/// measured tables, which counts as 0.
 pub fn reflectance(node: &Node, sink: &mut Sink) -> Spectrum {
+    refuse_negative(node, "a reflectance", sink);
     build(node, Use::Reflectance, sink).clamped(0.0, 1.0)
 }
 
 /// Spectral radiance, W m^-3 sr^-1: negative values are errors, but for the noise of measured tables,
 /// which counts as 0.
 pub fn emission(node: &Node, sink: &mut Sink) -> Spectrum {
-    if node.block.name != crate::declare::REGULAR_TABULATED.name {
-        refuse_negative(node, sink);
-    }
-    build(node, Use::Emission, sink).clamped(0.0, f64::INFINITY)
+    refuse_negative(node, "an emitter", sink);
+    let spectrum = build(node, Use::Emission, sink).clamped(0.0, f64::INFINITY);
+    refuse_excess(&spectrum, node.span, sink);
+    spectrum
 }
 
-/// A coefficient of a medium (1/m): negative values count as 0.
+/// A coefficient of a medium (1/m): negative values are errors, but for the noise of measured tables, which counts as
+/// 0.
 pub fn coefficient(node: &Node, sink: &mut Sink) -> Spectrum {
-    build(node, Use::Coefficient, sink).clamped(0.0, f64::INFINITY)
+    refuse_negative(node, "a coefficient", sink);
+    let spectrum = build(node, Use::Coefficient, sink).clamped(0.0, f64::INFINITY);
+    refuse_excess(&spectrum, node.span, sink);
+    spectrum
+}
+
+/// Reports values beyond [`LARGEST`], and what is no number.
+pub fn refuse_excess(spectrum: &Spectrum, span: Span, sink: &mut Sink) {
+    let (lowest, largest) = spectrum.range();
+    let is_held = lowest >= 0.0 && lowest <= largest && largest <= LARGEST;
+    if !is_held {
+        sink.push(
+            Diagnostic::error(
+                codes::OUT_OF_RANGE,
+                span,
+                "the values of this spectrum are too large to be computed with",
+            )
+            .expected(format!("expected at most {LARGEST:e}, found {largest:.1e}")),
+        );
+    }
 }
 
 /// The mean cosine of a phase function: clamped to [-0.99, 0.99], silently, as the manual says.
@@ -36,7 +62,7 @@ pub fn mean_cosine(node: &Node, sink: &mut Sink) -> Spectrum {
     build(node, Use::Coefficient, sink).clamped(-0.99, 0.99)
 }
 
-fn refuse_negative(node: &Node, sink: &mut Sink) {
+fn refuse_negative(node: &Node, what: &str, sink: &mut Sink) {
     for field in node.block.fields {
         let lowest = match field.name {
             "rgb" => node.vec3("rgb").into_iter().fold(f64::INFINITY, f64::min),
@@ -48,7 +74,7 @@ fn refuse_negative(node: &Node, sink: &mut Sink) {
                 Diagnostic::error(
                     codes::OUT_OF_RANGE,
                     node.span_of(field.name),
-                    format!("<{}> of an emitter must be >= 0", field.name),
+                    format!("<{}> of {what} must be >= 0", field.name),
                 )
                 .expected(format!("found {lowest}")),
             );

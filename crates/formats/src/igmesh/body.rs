@@ -57,7 +57,7 @@ impl<'a> Body<'a> {
         if self.header.version >= 2 {
             self.read_faces::<4>(&mut bytes)?;
         }
-        self.builder.note_count(bytes.rest().len(), "bytes follow the end of the mesh");
+        self.builder.note_count(bytes.rest().len(), "bytes after the end of the mesh");
         Ok(self.finish())
     }
 

@@ -207,7 +207,7 @@ impl Assembly {
         }
         self.builder.note_count(
             self.unsmoothed,
-            "face corners are flat because too many different smoothing groups meet there",
+            "face corners left flat, since too many different smoothing groups meet there",
         );
         if self.any_uvs {
             self.builder.mesh.uv_sets = vec![self.uvs];

@@ -4,7 +4,7 @@ use super::report::Reporter;
 use crate::codes;
 use indigo_decl::{EmbeddedMesh, MeshData};
 use indigo_diag::Span;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// Triangles of a smaller area, in m², are left out.
 const SMALLEST_AREA: f32 = 1e-20;
@@ -26,6 +26,8 @@ pub(super) struct MeshBuilder {
     exposed: Vec<(u32, Span, String)>,
     set_start: usize,
     set_material: Option<u32>,
+    /// Vertices of which something could not be read.
+    spoilt: HashSet<u32>,
 }
 
 impl MeshBuilder {
@@ -40,6 +42,7 @@ impl MeshBuilder {
             exposed: vec![],
             set_start: 0,
             set_material: None,
+            spoilt: HashSet::new(),
         }
     }
 
@@ -56,6 +59,11 @@ impl MeshBuilder {
         if let Some(last) = self.data.positions.last_mut() {
             *last = p;
         }
+    }
+
+    /// Takes note that something of the last vertex could not be read, which was reported.
+    pub fn spoil_vertex(&mut self) {
+        self.spoilt.insert((self.data.positions.len() - 1) as u32);
     }
 
     pub fn normal(&mut self, n: [f32; 3]) {
@@ -105,7 +113,9 @@ impl MeshBuilder {
         let corners = indices.map(|i| self.data.positions.get(i as usize).copied().unwrap_or_default());
         let area = 0.5 * length64(cross64(corners));
         if area < f64::from(SMALLEST_AREA) {
-            self.data.degenerate_dropped += 1;
+            // Where a vertex could not be read, nobody knows the area.
+            let is_spoilt = !self.spoilt.is_empty() && indices.iter().any(|i| self.spoilt.contains(i));
+            self.data.degenerate_dropped += usize::from(!is_spoilt);
         } else {
             self.data.triangles.push(indices);
         }

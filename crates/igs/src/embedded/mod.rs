@@ -77,7 +77,9 @@ impl Reader<'_, '_, '_> {
         self.mesh.begin_vertex();
         let mut has_position = false;
         for a in &attributes {
-            let value = self.scanner.slice(&a.value);
+            let raw = self.scanner.slice(&a.value);
+            let decoded = raw.contains(&b'&').then(|| self.scanner.decode(&a.value, true, self.report.sink));
+            let value = decoded.as_ref().map_or(raw, |text| text.as_bytes());
             let read = match self.scanner.slice(&a.name) {
                 b"pos" => {
                     has_position = true;
@@ -95,12 +97,14 @@ impl Reader<'_, '_, '_> {
             };
             if read.is_none() {
                 self.bad_attribute(&a.name, &a.value);
+                self.mesh.spoil_vertex();
             }
         }
         self.scanner.attributes = attributes;
         if !has_position {
             let span = self.scanner.span(tag);
             self.report.error(codes::BAD_VERTEX, span, "<vertex> has no pos", "expected pos=\"x y z\"");
+            self.mesh.spoil_vertex();
         }
         empty || self.skip(name, "vertex")
     }
@@ -147,9 +151,14 @@ impl Reader<'_, '_, '_> {
 
     fn triangle(&mut self, name: &Range<usize>, tag: &Range<usize>, empty: bool) -> bool {
         let Some(leaf) = self.leaf(name, tag, empty) else { return false };
-        let text = leaf.bytes(self.scanner.bytes);
         let span = self.scanner.span(&leaf.at);
-        let Some(indices) = numbers::indices(text) else {
+        let text = leaf.bytes(self.scanner.bytes);
+        let indices = if text.contains(&b'&') {
+            numbers::indices(self.leaf_text(&leaf).as_bytes())
+        } else {
+            numbers::indices(text)
+        };
+        let Some(indices) = indices else {
             let expected = "expected 3 whole numbers, the indices of vertices";
             self.report.error(codes::BAD_TRIANGLE, span, "<tri> is not 3 indices", expected);
             return true;

@@ -140,3 +140,22 @@ fn a_mesh_that_is_cut_off() {
         assert!(read.root().children.is_empty(), "what was cut off is left out");
     }
 }
+
+#[test]
+fn entities_stand_for_their_characters_in_numbers_too() {
+    let inside = "<vertex pos=\"&#49;&#32;2&#x20;3\"/><vertex pos=\"1 0 0\"/><vertex pos=\"0 1 0\"/>\
+                  <triangle_set><material_name>white</material_name><tri>0&#32;1 2</tri></triangle_set>";
+    let (mesh, findings) = read(inside);
+    assert_eq!(findings, Vec::<String>::new());
+    assert_eq!((mesh.data.positions[0], &mesh.data.triangles[..]), ([1.0, 2.0, 3.0], &[[0, 1, 2]][..]));
+}
+
+/// A vertex that cannot be read is one fault; that its triangles seem to have no area is not another.
+#[test]
+fn triangles_of_a_bad_vertex_are_not_counted_as_degenerate() {
+    let vertices = "<vertex pos=\"0 0 0\"/><vertex pos=\"nan 0 0\"/><vertex pos=\"0 1 0\"/>";
+    let (mesh, findings) = read(&format!("{vertices}{SET}"));
+    assert_eq!((findings.len(), mesh.data.degenerate_dropped), (1, 0), "{findings:?}");
+    let vertices = "<vertex pos=\"0 0 0\"/><vertex pos=\"0 0 0\"/><vertex pos=\"0 1 0\"/>";
+    assert_eq!(read(&format!("{vertices}{SET}")).0.data.degenerate_dropped, 1);
+}

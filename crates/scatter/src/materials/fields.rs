@@ -9,7 +9,7 @@ pub const ALBEDO_SPECTRUM: Field = Field::new(
     "albedo_spectrum",
     Kind::OneOf(&SPECTRUM),
     Presence::Optional,
-    "The fraction of light that is scattered. Values outside [0, 1] are silently clamped.",
+    "The fraction of light that is scattered, at least 0. Values above 1 are silently clamped.",
 );
 
 /// Why not to write a colour as three bare numbers.

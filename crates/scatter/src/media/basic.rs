@@ -33,7 +33,7 @@ pub static BLOCK: Block = Block::new(
             "absorption_coefficient_spectrum",
             Kind::OneOf(&SPECTRUM),
             Presence::Optional,
-            "How fast light is absorbed along its way. Negative values count as 0; without it the medium is \
+            "How fast light is absorbed along its way, at least 0; without it the medium is \
              clear.",
         )
         .unit("m^-1"),
@@ -65,7 +65,7 @@ pub static SUBSURFACE_SCATTERING: Block = Block::new(
             "scattering_coefficient_spectrum",
             Kind::OneOf(&SPECTRUM),
             Presence::Required,
-            "How often light is scattered along its way. Negative values count as 0.",
+            "How often light is scattered along its way, at least 0.",
         )
         .unit("m^-1"),
         Field::new(

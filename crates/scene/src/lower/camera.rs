@@ -1,11 +1,13 @@
 //! The camera.
 
+use super::geometry::FARTHEST;
 use super::{Context, aperture};
 use crate::codes;
 use crate::scene::FilmSettings;
 use crate::settings::{Origin, Settings};
 use indigo_camera::{Aperture, Camera, ThinLens, ThinLensParameters};
 use indigo_decl::Node;
+use indigo_decl::codes::OUT_OF_RANGE;
 use indigo_diag::{Diagnostic, Sink};
 use indigo_geom::{Accel, Ray};
 use indigo_math::{Float, Vec3, Vec3d};
@@ -43,19 +45,51 @@ pub(super) fn parameters(
         lens_sensor_dist: node.real("lens_sensor_dist"),
         vignetting,
     };
-    if let Some(film) = film {
+    let is_size_known = !settings.is_faulty("width") && !settings.is_faulty("height");
+    if let Some(film) = film.filter(|_| is_size_known && !node.is_faulty("aspect_ratio")) {
         warn_of_aspect(node, aspect, film, context.sink);
     }
     obstacles(node, settings);
     let aperture = aperture::aperture(node, context);
     if ThinLens::new(&lens).is_none() {
-        context.sink.push(
-            Diagnostic::error(codes::SINGULAR, node.span_of("up"), "<up> and <forwards> span no plane")
-                .expected("expected an <up> that does not point along <forwards>"),
-        );
+        refuse_directions(node, context.sink);
         return None;
     }
     Some(Unfocused { lens, aperture, autofocus })
+}
+
+/// The camera's place in the world; the origin where that is wrong.
+pub(super) fn position(node: &Node, sink: &mut Sink) -> Vec3d {
+    let pos = node.vec3("pos");
+    if pos.iter().all(|x| x.abs() <= FARTHEST) {
+        return pos.into();
+    }
+    sink.push(
+        Diagnostic::error(OUT_OF_RANGE, node.span_of("pos"), "the camera is too far away from the origin")
+            .expected(format!("expected coordinates up to {FARTHEST:e} m")),
+    );
+    Vec3d::ZERO
+}
+
+fn refuse_directions(node: &Node, sink: &mut Sink) {
+    // A direction that is no number at all was reported.
+    if ["up", "forwards"].iter().any(|field| node.is_faulty(field) || !node.has(field)) {
+        return;
+    }
+    for field in ["forwards", "up"] {
+        if Vec3d::from(node.vec3(field)).try_normalized().is_none() {
+            let message = format!("<{field}> has no direction");
+            sink.push(
+                Diagnostic::error(codes::SINGULAR, node.span_of(field), message)
+                    .expected("expected a vector of any length but 0"),
+            );
+            return;
+        }
+    }
+    sink.push(
+        Diagnostic::error(codes::SINGULAR, node.span_of("up"), "<up> and <forwards> span no plane")
+            .expected("expected an <up> that does not point along <forwards>"),
+    );
 }
 
 fn warn_of_aspect(node: &Node, aspect: f64, film: &FilmSettings, sink: &mut Sink) {

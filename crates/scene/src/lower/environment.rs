@@ -103,7 +103,7 @@ fn env_map(node: &Node, context: &mut Context) -> Option<EnvMap> {
         context.sink.push(Diagnostic::warning(
             codes::BAD_TEXELS,
             path.span,
-            format!("{}: {what} negative, infinite or no number, and black instead", file.path),
+            format!("{}: {what} negative, too large or no number, and black instead", file.path),
         ));
     }
     Some(EnvMap::new(layout, width as usize, height as usize, texels))
@@ -129,7 +129,7 @@ fn scale(texels: &mut [[f32; 3]], gain: f64) -> usize {
     let mut bad = 0;
     for texel in texels {
         let scaled = texel.map(|v| (f64::from(v) * gain) as f32);
-        let is_light = scaled.iter().all(|v| v.is_finite() && *v >= 0.0);
+        let is_light = scaled.iter().all(|v| (0.0..=read::LARGEST as f32).contains(v));
         bad += usize::from(!is_light);
         *texel = if is_light { scaled } else { [0.0; 3] };
     }

@@ -7,12 +7,16 @@ use super::placement;
 use crate::codes;
 use crate::settings::Settings;
 use indigo_decl::Node;
-use indigo_diag::Diagnostic;
+use indigo_diag::{Diagnostic, Sink, Span};
 use indigo_geom::Object;
 use indigo_math::Vec3d;
 
 /// How far from 1 the length of a plane's normal may be: decimal rounding of exporters.
 const UNIT_TOLERANCE: f64 = 1e-3;
+
+/// How far from the camera anything may be, in metres: some times the distance of the sun. Volumes of that size are
+/// the largest numbers that come up, and single precision holds them.
+pub(super) const FARTHEST: f64 = 1e12;
 
 /// All objects in render space.
 pub(super) struct Geometry {
@@ -42,6 +46,28 @@ impl Geometry {
         self.slots.extend(slots);
         self.lights.push(light);
         (self.objects.len() - 1) as u32
+    }
+
+    /// Reports an object, given in the world, that reaches too far. A mesh's coordinates are no larger than `reach`.
+    pub(super) fn refuse_far(&self, object: &Object, reach: f64, span: Span, sink: &mut Sink) {
+        let largest = |v: Vec3d| v.x.abs().max(v.y.abs()).max(v.z.abs());
+        let distance = match self.to_render_space(*object) {
+            Object::Mesh { transform, .. } => {
+                let corner = |i: usize| {
+                    let along = |axis: usize| if i >> axis & 1 == 0 { reach } else { -reach };
+                    largest(transform.point(Vec3d::new(along(0), along(1), along(2))))
+                };
+                (0..8).map(corner).fold(0.0, |most: f64, d| if d > most || d.is_nan() { d } else { most })
+            }
+            Object::Sphere { center, radius } => largest(center) + radius,
+            Object::Plane { dist, .. } => dist.abs(),
+        };
+        if distance.is_nan() || distance > FARTHEST {
+            sink.push(
+                Diagnostic::error(codes::GEOMETRY, span, "this is too large or too far away to be rendered")
+                    .expected(format!("expected nothing farther than {FARTHEST:e} m from the camera")),
+            );
+        }
     }
 
     fn to_render_space(&self, object: Object) -> Object {
@@ -120,6 +146,7 @@ impl Geometry {
         materials: &mut MaterialTable,
         context: &mut Context,
     ) {
+        self.refuse_far(&object, 0.0, node.span, context.sink);
         let name = node.text("material_name");
         let material = materials.get(&name.value, name.span, UvSets::Natural, context);
         self.add(object, [material], None);
@@ -142,7 +169,9 @@ impl Geometry {
         let uv = UvSets::Named(&mesh.uv_names);
         let slots: Vec<u32> =
             mesh.slots.iter().map(|(name, span)| materials.get(name, *span, uv, context)).collect();
-        Some((self.add(Object::Mesh { mesh: id, transform }, slots, light), id))
+        let object = Object::Mesh { mesh: id, transform };
+        self.refuse_far(&object, mesh.reach, node.span, context.sink);
+        Some((self.add(object, slots, light), id))
     }
 
     /// The objects, for building.

@@ -57,7 +57,9 @@ impl Lights {
             let Some(mesh) = rectangle(node, sink) else { continue };
             let mesh = meshes.add(mesh);
             let transform = Transform::translation(node.vec3("pos").into());
-            let object = geometry.add(Object::Mesh { mesh, transform }, [materials.black()], Some(light));
+            let placed = Object::Mesh { mesh, transform };
+            geometry.refuse_far(&placed, node.real("width").max(node.real("height")) / 2.0, node.span, sink);
+            let object = geometry.add(placed, [materials.black()], Some(light));
             let corners = world_corners(geometry.object(object), meshes.triangles(mesh));
             self.add_area(node, &corners, sink);
         }
@@ -70,7 +72,10 @@ impl Lights {
         if let Some(scale) = node.node("efficacy_scale") {
             let (power, efficacy) = (scale.real("power_drawn"), scale.real("overall_luminous_efficacy"));
             match photometry::with_efficacy(&light.radiance, power, efficacy, light.area()) {
-                Some(scaled) => light.radiance = scaled,
+                Some(scaled) => {
+                    read::refuse_excess(&scaled, scale.span, sink);
+                    light.radiance = scaled;
+                }
                 // A spectrum that is wrong by itself needs no second complaint.
                 None if sink.error_count() > errors_before => {}
                 None => sink.push(
@@ -84,11 +89,6 @@ impl Lights {
             }
         }
         self.lamps.push(light);
-    }
-
-    /// Whether the scene has no light.
-    pub(super) fn is_empty(&self) -> bool {
-        self.lamps.is_empty() && self.distant.is_empty()
     }
 
     /// The table of all lights.

@@ -66,6 +66,16 @@ impl<'a> MaterialTable<'a> {
         })
     }
 
+    /// Reports a name that no material has.
+    pub(super) fn check_name(&mut self, name: &str, span: Span, sink: &mut Sink) {
+        self.names.find(name, span, sink);
+    }
+
+    /// Reports a name that no medium has.
+    pub(super) fn check_medium(&mut self, name: &str, span: Span, sink: &mut Sink) {
+        self.media.check_name(name, span, sink);
+    }
+
     /// A surface that scatters nothing.
     pub(super) fn black(&mut self) -> u32 {
         if let Some(id) = self.black {

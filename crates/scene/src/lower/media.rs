@@ -55,6 +55,11 @@ impl<'a> MediumTable<'a> {
         id
     }
 
+    /// Reports a name that no medium has.
+    pub(super) fn check_name(&mut self, name: &str, span: Span, sink: &mut Sink) {
+        self.names.find(name, span, sink);
+    }
+
     /// Media that no material asked for have no effect, whatever they hold.
     pub(super) fn disregard_unused(&self) {
         for node in self.names.nodes() {

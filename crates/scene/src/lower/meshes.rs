@@ -17,6 +17,8 @@ pub(super) struct Mesh {
     pub(super) slots: Vec<(String, Span)>,
     /// Names of its uv sets.
     pub(super) uv_names: Vec<(String, u32)>,
+    /// The largest coordinate of its vertices, of either sign.
+    pub(super) reach: f64,
 }
 
 /// All meshes of a scene.
@@ -41,6 +43,11 @@ impl<'a> MeshTable<'a> {
         self.read.get(name)?.as_ref()
     }
 
+    /// Reports a name that no mesh has.
+    pub(super) fn check_name(&mut self, name: &str, span: Span, sink: &mut Sink) {
+        self.names.find(name, span, sink);
+    }
+
     /// The triangles of a mesh.
     pub(super) fn triangles(&self, id: u32) -> &TriangleMesh {
         &self.triangles[id as usize]
@@ -63,6 +70,11 @@ impl<'a> MeshTable<'a> {
             (data, vec![], path.span)
         };
         report_notes(&data, place, context.sink);
+        // A reader of files says it itself. Where something is wrong the triangles may be there, but could not be read.
+        let is_embedded = node.mesh("embedded").is_some();
+        if is_embedded && data.triangles.is_empty() && !context.sink.has_errors() {
+            context.sink.push(Diagnostic::warning(codes::FILE_NOTE, place, "the mesh has no triangles"));
+        }
         let slots = data
             .material_names
             .iter()
@@ -70,7 +82,8 @@ impl<'a> MeshTable<'a> {
             .map(|(i, name)| (name.clone(), material_spans.get(i).copied().unwrap_or(place)));
         let (slots, uv_names) = (slots.collect(), data.uv_names.clone());
         let triangles = to_triangles(data, scale, smooth, place, context.sink)?;
-        Some(Mesh { id: self.add(triangles), slots, uv_names })
+        let reach = triangles.positions().iter().flatten().fold(0.0_f32, |most, x| most.max(x.abs()));
+        Some(Mesh { id: self.add(triangles), slots, uv_names, reach: reach.into() })
     }
 
     /// Meshes that nothing places have no effect, whatever they hold.
@@ -108,8 +121,12 @@ fn report_notes(data: &MeshData, span: Span, sink: &mut Sink) {
     }
     if data.degenerate_dropped > 0 {
         let n = data.degenerate_dropped;
-        let what = if n == 1 { "1 triangle has".to_owned() } else { format!("{n} triangles have") };
-        sink.push(Diagnostic::warning(codes::FILE_NOTE, span, format!("{what} no area and left out")));
+        let what = if n == 1 {
+            "1 triangle has no area and is left out".to_owned()
+        } else {
+            format!("{n} triangles have no area and are left out")
+        };
+        sink.push(Diagnostic::warning(codes::FILE_NOTE, span, what));
     }
 }
 

@@ -82,7 +82,7 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
     let output = picture::output(settings, context.sink, path);
     camera::diffraction(settings, context.sink);
     let camera_node = find_camera(root, context.sink);
-    let origin = camera_node.map_or(Vec3d::ZERO, |c| c.vec3("pos").into());
+    let origin = camera_node.map_or(Vec3d::ZERO, |c| camera::position(c, context.sink));
     let camera = camera_node.and_then(|c| camera::parameters(c, settings, film.as_ref(), context));
 
     let mut meshes = MeshTable::new(root, context.sink);
@@ -93,13 +93,20 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
     lights.add_environment(root, context);
     lights.add_mesh_lights(root, &mut geometry, &mut meshes, &mut materials, context);
     lights.add_rectangles(root, &mut geometry, &mut meshes, &mut materials, context.sink);
+    root.visit_references(&mut |what, name, span| match what {
+        "mesh" => meshes.check_name(name, span, context.sink),
+        "medium" => materials.check_medium(name, span, context.sink),
+        _ => materials.check_name(name, span, context.sink),
+    });
     meshes.disregard_unused();
     materials.disregard_unused();
 
     let picture = picture::picture(root, camera_node.zip(camera.as_ref()), settings, context.sink);
     let threshold = usize::try_from(settings.int("bih_tri_threshold").value).unwrap_or(usize::MAX);
     let caching = settings.bool("cache_trees");
-    if lights.is_empty() && !context.sink.has_errors() {
+    // A light that is there but wrong, or not rendered, has its own message.
+    let is_dark = LIGHTS.iter().all(|light| !root.has(light) && !root.is_faulty(light));
+    if is_dark && !context.sink.has_errors() {
         context.sink.push(
             Diagnostic::warning(
                 codes::NO_LIGHT,
@@ -148,6 +155,9 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
     scene.find_starting_media(&lamps);
     Some(scene)
 }
+
+/// Elements that give light.
+const LIGHTS: [&str; 5] = ["background", "skylight", "env_map", "meshlight", "rectanglelight"];
 
 fn find_camera<'a>(root: &'a Node, sink: &mut Sink) -> Option<&'a Node> {
     let camera = root.node("camera");

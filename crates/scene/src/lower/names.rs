@@ -2,14 +2,22 @@
 
 use crate::codes;
 use indigo_decl::Node;
-use indigo_diag::{Diagnostic, Sink, Span, nearest};
-use std::collections::HashMap;
+use indigo_diag::{Candidates, Diagnostic, Sink, Span};
+use std::collections::{HashMap, HashSet};
 
 /// Elements of one kind by name.
 pub(super) struct Names<'a> {
     what: &'static str,
     by_name: HashMap<String, &'a Node>,
+    /// Names that were looked for in vain, each of which is reported once.
+    missed: HashSet<String>,
+    /// All names, made ready when the first hint is wanted.
+    candidates: Option<Candidates>,
 }
+
+/// So many unknown names are compared with all known ones for a hint. Where more are unknown it is not a slip of the
+/// pen, and comparing each would take time that grows with the square of the scene.
+const MOST_HINTS: usize = 20;
 
 impl<'a> Names<'a> {
     /// The elements `what` of a scene. Where a name is defined twice the last definition counts.
@@ -26,25 +34,33 @@ impl<'a> Names<'a> {
                 ));
             }
         }
-        Self { what, by_name }
+        Self { what, by_name, missed: HashSet::new(), candidates: None }
     }
 
     /// The element of a name; `None` after reporting that there is none.
-    pub(super) fn find(&self, name: &str, span: Span, sink: &mut Sink) -> Option<&'a Node> {
+    pub(super) fn find(&mut self, name: &str, span: Span, sink: &mut Sink) -> Option<&'a Node> {
         let found = self.by_name.get(name).copied();
-        if found.is_none() && !name.is_empty() {
-            let mut known: Vec<&str> = self.by_name.keys().map(String::as_str).collect();
-            known.sort_unstable();
-            let mut d = Diagnostic::error(
-                codes::UNKNOWN_NAME,
-                span,
-                format!("there is no {} named {name}", self.what),
-            )
-            .expected(format!("expected the name of a <{}>", self.what));
-            d.hint = nearest(name, known).map(|n| format!("did you mean {n}?"));
+        if found.is_none() && !name.is_empty() && self.missed.insert(name.to_owned()) {
+            let message = format!("there is no {} named {name}", self.what);
+            let mut d = Diagnostic::error(codes::UNKNOWN_NAME, span, message)
+                .expected(format!("expected the name of a <{}>", self.what));
+            d.hint = self.hint(name);
             sink.push(d);
         }
         found
+    }
+
+    fn hint(&mut self, name: &str) -> Option<String> {
+        if self.missed.len() > MOST_HINTS {
+            return None;
+        }
+        let by_name = &self.by_name;
+        let candidates = self.candidates.get_or_insert_with(|| {
+            let mut known: Vec<&str> = by_name.keys().map(String::as_str).collect();
+            known.sort_unstable();
+            Candidates::new(known)
+        });
+        candidates.nearest(name).map(|n| format!("did you mean {n}?"))
     }
 
     /// All elements.
