@@ -4,6 +4,9 @@ use indigo_render::output::OutputPaths;
 use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 
+/// Where the shape of the aperture is shown, in the working directory.
+pub const APERTURE_PREVIEW: &str = "aperture_preview.png";
+
 /// The settings file: in the current directory, else beside the program.
 pub fn inifile() -> Option<String> {
     const NAME: &str = "inifile.xml";

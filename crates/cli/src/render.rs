@@ -4,7 +4,7 @@ use crate::console::{Console, progress_text, scaled};
 use crate::flags::Arguments;
 use crate::{FAILED, RENDERED, VERSION, count, paths};
 use indigo_render::output::{OutputPaths, SaveError, SaveJob, Saving};
-use indigo_render::{Event, Halt, HaltReason, Options, Progress, Session};
+use indigo_render::{Event, Halt, HaltReason, Options, Progress, Session, preview};
 use indigo_scene::schema::settings::MOST_THREADS;
 use indigo_scene::{OutputSettings, Scene};
 use std::path::{Path, PathBuf};
@@ -37,6 +37,7 @@ pub fn render(scene: Scene, arguments: &Arguments, named: Option<PathBuf>, conso
             return FAILED;
         }
     };
+    preview_aperture(&scene, console);
     let options = Options {
         threads: scene.output.threads.unwrap_or_else(logical_cores).min(MOST_THREADS),
         seed: arguments.seed,
@@ -112,6 +113,19 @@ fn describe(scene: &Scene, console: &mut Console) {
     }
     if let Some(n) = scene.output.halt_samples_per_pixel.filter(|n| n.fract() != 0.0) {
         console.say(&format!("note: whole samples are taken: halting at {} per pixel, not at {n}", n.ceil()));
+    }
+}
+
+/// A scene with an aperture shape of its own gets a picture of it. That is for looking at: a failure
+/// costs a warning.
+fn preview_aperture(scene: &Scene, console: &mut Console) {
+    let path = PathBuf::from(paths::APERTURE_PREVIEW);
+    if !scene.output.aperture_preview {
+        return;
+    }
+    match preview::save_aperture(scene.camera.aperture(), &path) {
+        Ok(()) => say_saved(&[path], console),
+        Err(error) => console.say(&format!("warning: {error}")),
     }
 }
 

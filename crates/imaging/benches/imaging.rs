@@ -37,6 +37,8 @@ fn film(size: FilmSize) -> FilmState {
 fn report() {
     let film = film(FilmSize::new(1632, 1224, 2).expect("a good size"));
     let settings = |tone_mapping, downsize| PictureSettings {
+        diffraction: None,
+        bloom: None,
         tone_mapping,
         white_balance: WhiteBalance::from_white([0.34567, 0.35850]).expect("D50 is a white"),
         downsize,

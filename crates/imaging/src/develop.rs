@@ -9,14 +9,37 @@ use rayon::prelude::*;
 
 /// Makes the picture of a film. Runs on the caller's rayon pool.
 pub fn develop(film: &FilmState, settings: &PictureSettings) -> Picture {
-    develop_image(&film.develop(), settings)
+    develop_image(&on_sensor(film.develop(), settings), settings)
 }
 
-/// Makes the picture of a film that has been developed to XYZ, as a shared film is without copying
-/// its sums.
+/// The light that falls on the sensor: that of the film, diffracted by the camera's aperture if the
+/// settings ask for it. Both pictures are made of it. Runs on the caller's rayon pool.
+pub fn on_sensor(mut image: XyzImage, settings: &PictureSettings) -> XyzImage {
+    if let Some(diffraction) = &settings.diffraction {
+        let region = region(image.size, settings.region);
+        diffraction.apply(&mut image, region);
+    }
+    image
+}
+
+/// The part of a picture that is rendered.
+fn region(size: FilmSize, region: Option<Region>) -> Region {
+    region.unwrap_or_else(|| Region::whole(size)).within(size)
+}
+
+/// Makes the picture of the light on the sensor ([`on_sensor`]).
 pub fn develop_image(image: &XyzImage, settings: &PictureSettings) -> Picture {
     let size = image.size;
-    let region = settings.region.unwrap_or_else(|| Region::whole(size)).within(size);
+    let region = region(size, settings.region);
+    let mut glowing;
+    let image = match settings.bloom {
+        Some(bloom) if !settings.foreground_alpha => {
+            glowing = image.clone();
+            bloom.apply(&mut glowing, region);
+            &glowing
+        }
+        _ => image,
+    };
     let window = Window::new(image, region);
     let mut pixels = if settings.foreground_alpha {
         downsize(size, region, settings.downsize, |y, out| coverage_row(window.row(y), out))
@@ -31,11 +54,11 @@ pub fn develop_image(image: &XyzImage, settings: &PictureSettings) -> Picture {
     Picture { width: size.width(), height: size.height(), pixels: framed(size, region, pixels) }
 }
 
-/// Makes the linear picture of a film: Rec. 709 in cd/m², without white balance and exposure.
+/// Makes the linear picture of the light on the sensor ([`on_sensor`]): Rec. 709 in cd/m², without white balance and exposure.
 /// `filter` must pass [`Filter::check`]. Runs on the caller's rayon pool.
 pub fn untonemapped(image: &XyzImage, filter: Filter, region: Option<Region>) -> LinearImage {
     let size = image.size;
-    let region = region.unwrap_or_else(|| Region::whole(size)).within(size);
+    let region = self::region(size, region);
     let window = Window::new(image, region);
     // The matrix is linear like the filter: apply it to the few pixels that are left.
     let mut pixels = downsize(size, region, filter, |y, out| out.copy_from_slice(window.row(y)));

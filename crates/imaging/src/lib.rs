@@ -4,7 +4,11 @@
 //! settings each time. [`develop`] makes the picture that is shown and saved as PNG; [`untonemapped`]
 //! makes the linear one, in cd/m², that is saved as EXR.
 //!
-//! The order of the steps, for each internal pixel: XYZ, Bradford adaptation to D65, linear
+//! Before either, [`on_sensor`] spreads the light by the diffraction of the aperture: what falls on the
+//! sensor is a matter of light, so the linear picture has it, too. Bloom, which imitates it, is a matter
+//! of taste and only in the picture that is shown.
+//!
+//! The order of the steps, for each internal pixel: XYZ, diffraction, bloom, Bradford adaptation to D65, linear
 //! Rec. 709, tone mapping, clamping to [0, 1]; then the downsize filter, in display-linear light,
 //! and clamping again, since a filter with negative lobes overshoots. Clamping first is what makes
 //! an edge of something very bright as smooth as any other.
@@ -12,7 +16,10 @@
 //! Everything here is a pure function of bytes and numbers; large loops run on the caller's rayon
 //! pool and give the same bits whatever its size.
 
+mod bloom;
+mod convolution;
 mod develop;
+mod diffraction;
 mod downsize;
 mod error;
 pub mod exr;
@@ -24,7 +31,9 @@ mod srgb;
 mod tonemap;
 mod white_balance;
 
-pub use develop::{develop, develop_image, untonemapped};
+pub use bloom::Bloom;
+pub use develop::{develop, develop_image, on_sensor, untonemapped};
+pub use diffraction::Diffraction;
 pub use error::ImagingError;
 pub use metadata::{Metadata, RenderFacts};
 pub use picture::{LinearImage, Picture};

@@ -52,6 +52,18 @@ pub fn encode(picture: &Picture, metadata: &Metadata, depth: Depth) -> Result<Ve
     Ok(bytes)
 }
 
+/// Encodes a square of grey codes, rows from the top, as they are. Errors: not a square of at least one.
+pub fn encode_grey(side: u32, codes: &[u8]) -> Result<Vec<u8>, ImagingError> {
+    let mut bytes = Vec::new();
+    let mut encoder = Encoder::new(&mut bytes, side, side);
+    encoder.set_color(ColorType::Grayscale);
+    encoder.set_depth(BitDepth::Eight);
+    let mut writer = encoder.write_header().map_err(failure)?;
+    writer.write_image_data(codes).map_err(failure)?;
+    writer.finish().map_err(failure)?;
+    Ok(bytes)
+}
+
 /// The text entries of a PNG, in the order of their chunks' kinds: Latin-1 (plain, then
 /// compressed), then UTF-8. Errors: not a PNG, or a damaged one.
 pub fn read_metadata(bytes: &[u8]) -> Result<Vec<(String, String)>, ImagingError> {

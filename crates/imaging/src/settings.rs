@@ -1,11 +1,16 @@
 //! How a picture is made from the film.
 
-use crate::{ImagingError, ToneMapping, WhiteBalance};
+use crate::{Bloom, Diffraction, ImagingError, ToneMapping, WhiteBalance};
 use indigo_film::{FilmSize, Filter};
+use std::sync::Arc;
 
 /// All that a picture depends on besides the film.
 #[derive(Clone, Debug)]
 pub struct PictureSettings {
+    /// Diffraction by the camera's aperture as a filter on the film's light.
+    pub diffraction: Option<Arc<Diffraction>>,
+    /// A glow round bright spots.
+    pub bloom: Option<Bloom>,
     /// From light to display-linear values.
     pub tone_mapping: ToneMapping,
     /// What counts as white.

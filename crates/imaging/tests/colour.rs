@@ -13,6 +13,8 @@ const EXPOSURE: Exposure = Exposure {
 
 fn settings(tone_mapping: ToneMapping) -> PictureSettings {
     PictureSettings {
+        diffraction: None,
+        bloom: None,
         tone_mapping,
         white_balance: WhiteBalance::NONE,
         downsize: Filter::MN_DEFAULT,

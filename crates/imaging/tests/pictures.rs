@@ -15,6 +15,8 @@ const WHITE: [f32; 3] = [0.950_455_9, 1.0, 1.089_057_8];
 /// With an exposure of 1 lux·s per cd/m² and scale 1: what is in the film is what is shown.
 fn settings(downsize: Filter) -> PictureSettings {
     PictureSettings {
+        diffraction: None,
+        bloom: None,
         tone_mapping: ToneMapping::Linear { scale: 1.0 },
         white_balance: WhiteBalance::NONE,
         downsize,

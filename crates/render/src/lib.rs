@@ -9,6 +9,7 @@ mod memory;
 mod options;
 pub mod output;
 pub mod pool;
+pub mod preview;
 mod progress;
 mod session;
 mod worker;

@@ -5,7 +5,8 @@ use crate::disk::write_atomically;
 use crate::pool::with_jobs;
 use indigo_film::FilmState;
 use indigo_imaging::{
-    ImagingError, LinearImage, Metadata, Picture, RenderFacts, develop_image, exr, png, untonemapped,
+    ImagingError, LinearImage, Metadata, Picture, RenderFacts, develop_image, exr, on_sensor, png,
+    untonemapped,
 };
 use indigo_scene::Scene;
 use std::path::{Path, PathBuf};
@@ -86,7 +87,7 @@ impl SaveJob {
 
     fn save_on_pool(&self, film: &FilmState, progress: &Progress) -> Result<Vec<PathBuf>, SaveError> {
         let (scene, output) = (&self.scene, &self.scene.output);
-        let image = film.develop();
+        let image = on_sensor(film.develop(), &scene.picture);
         let metadata = self.metadata(progress);
         let picture = develop_image(&image, &scene.picture);
         let png = png::encode(&picture, &metadata, png::Depth::Eight)?;

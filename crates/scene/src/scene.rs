@@ -82,6 +82,7 @@ pub struct FilmSettings {
 
 /// What is written, and when; times in seconds.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch of the scene's own")]
 pub struct OutputSettings {
     /// Path of the scene, as given.
     pub scene_path: String,
@@ -89,6 +90,8 @@ pub struct OutputSettings {
     pub untonemapped_exr: bool,
     /// Whether an EXR of the developed picture is written.
     pub tonemapped_exr: bool,
+    /// Whether a picture of the aperture's shape is written.
+    pub aperture_preview: bool,
     /// How often pictures are written.
     pub image_save_period: f64,
     /// Rendering time after which to halt.

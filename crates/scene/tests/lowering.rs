@@ -201,6 +201,34 @@ fn apertures() {
 }
 
 #[test]
+fn bloom_is_deprecated() {
+    let camera =
+        CAMERA.replace("</camera>", "<bloom><weight>0.1</weight><radius>0.1</radius></bloom></camera>");
+    let column = camera.find("<bloom>").unwrap() + 1;
+    assert_eq!(found(&camera), [format!("{LINE}:{column}:W0104")]);
+}
+
+/// What stands before the lens matters to diffraction alone.
+#[test]
+fn obstacles() {
+    let with = |path: &str, diffraction: bool| {
+        let camera = CAMERA.replace("</camera>", &format!("<obstacle_map>{path}</obstacle_map></camera>"));
+        let column = camera.find(path).expect("the path") + 1;
+        let on = format!("<aperture_diffraction>{diffraction}</aperture_diffraction>");
+        let head = HEAD.replace("<aperture_diffraction>false</aperture_diffraction>", &on);
+        let l = loaded(&format!("{head}{camera}</scene>"));
+        let place = |d: &indigo_diag::Diagnostic| d.span.map(|s| l.sources.position(s));
+        let places: Vec<_> = l.sink.diagnostics().iter().map(|d| (d.code, place(d))).collect();
+        assert!(places.iter().all(|(_, p)| p.is_some_and(|p| (p.line, p.column) == (LINE, column))));
+        places.into_iter().map(|(code, _)| code).collect::<Vec<_>>()
+    };
+    assert_eq!(with("nowhere.png", false), Vec::<&str>::new());
+    assert_eq!(with("nowhere.png", true), ["E0302"]);
+    assert_eq!(with("broken.png", true), ["E0303"]);
+    assert_eq!(with("tiny.png", true), ["E0303"], "all black");
+}
+
+#[test]
 fn lamps() {
     let lamp = |spectrum: &str| {
         format!(
@@ -229,10 +257,6 @@ fn whatever_is_not_rendered_yet_is_named_where_it_stands() {
         "<material><name>p</name><diffuse><albedo_spectrum><uniform><value>0</value></uniform></albedo_spectrum><bump_map><path>x.png</path></bump_map></diffuse></material>{used}"
     );
     expect_one(&bump, "<bump_map>", "E0205");
-    let camera =
-        CAMERA.replace("</camera>", "<bloom><weight>0.1</weight><radius>0.1</radius></bloom></camera>");
-    let column = camera.find("<bloom>").unwrap() + 1;
-    assert_eq!(found(&camera), ["W0104", "E0205"].map(|code| format!("{LINE}:{column}:{code}")));
 }
 
 #[test]

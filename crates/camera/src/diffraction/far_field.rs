@@ -40,7 +40,7 @@ const LAST: usize = SIDE / 4;
 /// Steps per cycle beyond the core: as many as the spectrum of something of width 1 needs.
 const STEPS: usize = 2;
 /// Rings per cycle in the core.
-const CORE_RINGS: usize = 8;
+const CORE_RINGS: usize = 16;
 /// Rings from the core's end to the last: each is 0.8 % wider than the one before, less than
 /// the wavelengths of a colour spread it.
 const OUTER_RINGS: usize = 392;

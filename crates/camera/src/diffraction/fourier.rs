@@ -2,11 +2,9 @@
 
 // tidy: load-time mathematics
 
+use super::fft::{Complex, Transform};
 use crate::Mask;
 use rayon::prelude::*;
-use realfft::RealFftPlanner;
-use realfft::num_complex::Complex;
-use rustfft::FftPlanner;
 
 /// Columns that are transformed together: what is read from a row of memory at once.
 const BATCH: usize = 8;
@@ -23,7 +21,7 @@ pub(super) struct PowerSpectrum {
 
 impl PowerSpectrum {
     /// The spectrum up to `cycles` in steps of 1 / `steps` of a cycle: the drawing is surrounded by
-    /// so many of its widths of darkness. `cycles` is less than half the cells of a side.
+    /// so many of its widths of darkness. Both it and the drawing's side are powers of two; `cycles` is less than half the cells of a side.
     ///
     /// A drawing holds means over its cells, which damps high frequencies by the transform of a cell; that
     /// is taken back. What lies beyond the cells' own frequency and is folded back remains.
@@ -32,14 +30,14 @@ impl PowerSpectrum {
         let rows = transformed_rows(mask, steps, half + 1);
         let height = 2 * half + 1;
         let mut values = vec![0.0; (half + 1) * height];
-        let fft = FftPlanner::new().plan_fft_forward(mask.side * steps);
+        let fft = Transform::new(mask.side * steps);
         let scale = 1.0 / (mask.side * mask.side) as f64;
         values.par_chunks_mut(BATCH * height).enumerate().for_each_init(
-            || vec![Complex::new(0.0f32, 0.0); BATCH * mask.side * steps],
+            || vec![[0.0; 2]; BATCH * mask.side * steps],
             |buffer, (batch, out)| {
                 let first = batch * BATCH;
                 let count = out.len() / height;
-                buffer.fill(Complex::new(0.0, 0.0));
+                buffer.fill([0.0; 2]);
                 for (y, row) in rows.chunks_exact(half + 1).enumerate() {
                     for (i, &v) in row[first..first + count].iter().enumerate() {
                         buffer[i * mask.side * steps + y] = v;
@@ -55,7 +53,8 @@ impl PowerSpectrum {
                         let v = column[down.rem_euclid(column.len() as isize) as usize];
                         let y = cell_spectrum(down as f64 / (steps * mask.side) as f64);
                         let amplitude = scale / (x * y);
-                        *out = (f64::from(v.norm_sqr()) * amplitude * amplitude) as f32;
+                        let [re, im] = v.map(f64::from);
+                        *out = ((re * re + im * im) * amplitude * amplitude) as f32;
                     }
                 }
             },
@@ -85,19 +84,27 @@ fn cell_spectrum(f: f64) -> f64 {
     if x == 0.0 { 1.0 } else { x.sin() / x }
 }
 
-/// The first `keep` values of each row's transform, rows of darkness added to its length.
-fn transformed_rows(mask: &Mask, steps: usize, keep: usize) -> Vec<Complex<f32>> {
-    let fft = RealFftPlanner::<f32>::new().plan_fft_forward(mask.side * steps);
-    let mut rows = vec![Complex::new(0.0, 0.0); mask.side * keep];
-    rows.par_chunks_mut(keep).zip(mask.cells.par_chunks(mask.side)).for_each_init(
-        || (fft.make_input_vec(), fft.make_output_vec(), fft.make_scratch_vec()),
-        |(input, output, scratch), (row, cells)| {
-            input.fill(0.0);
-            input[..cells.len()].copy_from_slice(cells);
-            // Only a buffer of the wrong length could fail, and these are of the plan's own making.
-            let done = fft.process_with_scratch(input, output, scratch);
-            debug_assert!(done.is_ok());
-            row.copy_from_slice(&output[..keep]);
+/// The first `keep` values of each row's transform, darkness added to its length. Two real rows make one
+/// complex sequence F, whose transform holds those of both: (F_k ± F*_-k) / 2, the second over i.
+fn transformed_rows(mask: &Mask, steps: usize, keep: usize) -> Vec<Complex> {
+    let length = mask.side * steps;
+    let fft = Transform::new(length);
+    let mut rows = vec![[0.0; 2]; mask.side * keep];
+    rows.par_chunks_mut(2 * keep).zip(mask.cells.par_chunks(2 * mask.side)).for_each_init(
+        || vec![[0.0; 2]; length],
+        |buffer, (out, cells)| {
+            let (first, second) = cells.split_at(mask.side);
+            buffer.fill([0.0; 2]);
+            for ((b, &u), &v) in buffer.iter_mut().zip(first).zip(second) {
+                *b = [u, v];
+            }
+            fft.process(buffer);
+            let (first, second) = out.split_at_mut(keep);
+            for (k, (u, v)) in first.iter_mut().zip(second).enumerate() {
+                let (a, b) = (buffer[k], buffer[(length - k) % length]);
+                *u = [0.5 * (a[0] + b[0]), 0.5 * (a[1] - b[1])];
+                *v = [0.5 * (a[1] + b[1]), 0.5 * (b[0] - a[0])];
+            }
         },
     );
     rows

@@ -2,6 +2,7 @@
 
 pub(crate) mod deflection;
 pub mod far_field;
+mod fft;
 mod fourier;
 mod pupil;
 

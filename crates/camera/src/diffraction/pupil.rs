@@ -32,4 +32,10 @@ impl Pupil {
     pub fn far_field(&self) -> Option<FarField> {
         FarField::new(&self.draw_amplitude(SIDE))
     }
+
+    /// Whether no light passes.
+    pub fn is_dark(&self) -> bool {
+        // Means over the cells of a drawing are 0 only if all of it is.
+        self.draw_amplitude(64).cells.iter().all(|&t| t <= 0.0)
+    }
 }

@@ -36,6 +36,29 @@ fn without_a_name_the_picture_is_named_by_time_and_scene() {
     assert_picture(&bench.path("renders").join(name), 40, 30);
 }
 
+/// White in the middle and black in the corners, as large as an aperture image must be; and none without a
+/// shape of its own.
+#[test]
+fn an_aperture_shape_is_shown() {
+    let bench = Workbench::new(QUIET);
+    assert_eq!(bench.run(&["scene.igs", "-haltspp", "1", "-o", "a.png"]).status, Some(0));
+    assert!(!bench.path("aperture_preview.png").exists());
+    let scene = std::fs::read_to_string(bench.path("scene.igs")).expect("the scene");
+    let blades = "<aperture_shape><generated><num_blades>5</num_blades><start_angle>0</start_angle><blade_offset>0.3</blade_offset><blade_curvature_radius>1</blade_curvature_radius></generated></aperture_shape></camera>";
+    bench.write("scene.igs", &scene.replace("</camera>", blades));
+    let ran = bench.run(&["scene.igs", "-haltspp", "1", "-o", "a.png"]);
+    assert_eq!(ran.status, Some(0), "{ran:?}");
+    assert!(ran.stderr.contains("aperture_preview.png"), "{}", ran.stderr);
+    let bytes = std::fs::read(bench.path("aperture_preview.png")).expect("the preview");
+    let image = indigo_formats::image::decode("x.png", &bytes).expect("a picture");
+    let indigo_formats::image::Pixels::U8(codes) = image.pixels else { panic!("8 bits are expected") };
+    assert_eq!((image.width, image.height, image.channels), (512, 512, 1));
+    assert_eq!((codes[256 * 512 + 256], codes[0], codes[512 * 512 - 1]), (255, 0, 0));
+    // The blade to the right ends at 0.3 of the width from the middle; the corner to the left does not.
+    let open = |x: usize| codes[256 * 512 + x] == 255;
+    assert!(open(256 + 150) && !open(256 + 157) && open(256 - 157));
+}
+
 #[test]
 fn a_log_is_kept_if_wanted() {
     let bench = Workbench::new("<logging>true</logging>");

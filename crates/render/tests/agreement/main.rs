@@ -114,6 +114,8 @@ grid! {
     environment_only,
     environment_and_lamp,
     thin_lens_out_of_focus,
+    blades_out_of_focus,
+    deflected_rays,
     smoothed_normals,
     coloured_walls_and_lamps,
     invisible_surfaces,

@@ -114,6 +114,28 @@ pub fn thin_lens_out_of_focus() -> Scene {
     build(&[common(lens), room(["white"; 4]), block("grey"), lamp(0.3, 1e5)])
 }
 
+/// Three blades, whose picture of what is out of focus no mode may turn over or stretch.
+pub fn blades_out_of_focus() -> Scene {
+    let blades = "<aperture_shape><generated><num_blades>3</num_blades><start_angle>0.2</start_angle><blade_offset>0.25</blade_offset><blade_curvature_radius>0.7</blade_curvature_radius></generated></aperture_shape>";
+    let lens = camera([0.0, -3.6, 0.0], [0.0, 1.0, 0.0], 0.42, blades)
+        .replace("<aperture_radius>1e-5</aperture_radius>", "<aperture_radius>0.4</aperture_radius>")
+        .replace("<focus_distance>1</focus_distance>", "<focus_distance>1.5</focus_distance>");
+    build(&[common(lens), room(["white"; 4]), block("grey"), lamp(0.3, 1e5)])
+}
+
+/// A pinhole that spreads light over pixels, more of it the longer its wavelength.
+pub fn deflected_rays() -> Scene {
+    let [red, blue] =
+        ["0.8 0.1 0.1", "0.1 0.1 0.8"].map(|c| format!("<rgb><rgb>{c}</rgb><gamma>2.2</gamma></rgb>"));
+    let mut parts = common(camera([0.0, -3.6, 0.0], [0.0, 1.0, 0.0], 0.42, ""));
+    parts[0] = parts[0].replace(
+        "<aperture_diffraction>false</aperture_diffraction>",
+        "<aperture_diffraction>true</aperture_diffraction><post_process_diffraction>false</post_process_diffraction>",
+    );
+    parts.extend([diffuse("red", &red), diffuse("blue", &blue)]);
+    build(&[parts, room(["white", "red", "blue", "white"]), block("grey"), lamp(0.3, 1e5)])
+}
+
 /// Vertex normals of a coarse ball lean far from its triangles' own.
 pub fn smoothed_normals() -> Scene {
     let ball = |center: [f64; 3], radius: f64, name: &str| {

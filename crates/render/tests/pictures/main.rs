@@ -10,5 +10,6 @@ mod colour;
 mod direct_light;
 mod exposure;
 mod furnace;
+mod lens;
 mod media;
 mod surfaces;

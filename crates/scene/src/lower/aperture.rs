@@ -78,6 +78,11 @@ fn drawn(node: &Node, context: &mut Context) -> Option<Aperture> {
     Aperture::image(&grey(&image)).map_err(complain).ok()
 }
 
+/// An image of what stands before the lens; `None` after reporting why not.
+pub(super) fn obstacles(path: &str, span: Span, context: &mut Context) -> Option<GreyImage> {
+    read_image(path, span, context).map(|(image, _)| grey(&image))
+}
+
 /// A picture file and its bytes; `None` after reporting why not.
 fn read_image(path: &str, span: Span, context: &mut Context) -> Option<(Image, std::sync::Arc<[u8]>)> {
     let found = context.read(path, span)?;

@@ -4,13 +4,15 @@ use super::geometry::FARTHEST;
 use super::{Context, aperture};
 use crate::codes;
 use crate::scene::FilmSettings;
-use crate::settings::{Origin, Settings};
-use indigo_camera::{Aperture, Camera, ThinLens, ThinLensParameters};
+use crate::settings::Settings;
+use indigo_camera::{Aperture, Camera, Pupil, ThinLens, ThinLensParameters};
 use indigo_decl::Node;
 use indigo_decl::codes::OUT_OF_RANGE;
 use indigo_diag::{Diagnostic, Sink};
 use indigo_geom::{Accel, Ray};
+use indigo_imaging::Diffraction as DiffractionFilter;
 use indigo_math::{Float, Vec3, Vec3d};
+use std::sync::Arc;
 
 /// Relative difference between the sensor's aspect ratio and the picture's that is worth a warning.
 const ASPECT_TOLERANCE: f64 = 0.01;
@@ -19,6 +21,8 @@ const ASPECT_TOLERANCE: f64 = 0.01;
 pub(super) struct Unfocused {
     lens: ThinLensParameters,
     aperture: Aperture,
+    pupil: Pupil,
+    diffraction: Diffraction,
     autofocus: bool,
 }
 
@@ -49,13 +53,14 @@ pub(super) fn parameters(
     if let Some(film) = film.filter(|_| is_size_known && !node.is_faulty("aspect_ratio")) {
         warn_of_aspect(node, aspect, film, context.sink);
     }
-    obstacles(node, settings);
     let aperture = aperture::aperture(node, context);
+    let diffraction = Diffraction::of(settings);
+    let pupil = pupil(node, &aperture, diffraction, context);
     if ThinLens::new(&lens).is_none() {
         refuse_directions(node, context.sink);
         return None;
     }
-    Some(Unfocused { lens, aperture, autofocus })
+    Some(Unfocused { lens, aperture, pupil, diffraction, autofocus })
 }
 
 /// The camera's place in the world; the origin where that is wrong.
@@ -108,19 +113,55 @@ fn warn_of_aspect(node: &Node, aspect: f64, film: &FilmSettings, sink: &mut Sink
     }
 }
 
-/// Reads what the settings say of cameras, so that a scene without one has no further errors.
-pub(super) fn diffraction(settings: &Settings, sink: &mut Sink) {
-    settings.refuse_true("aperture_diffraction", Some("the picture has no diffraction glare"), sink);
-    settings.disregard("post_process_diffraction");
-    settings.disregard("vignetting");
+/// How the aperture's diffraction is rendered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Diffraction {
+    /// Not at all.
+    Off,
+    /// As a filter on the picture.
+    Filter,
+    /// By the deflection of rays.
+    Rays,
 }
 
-/// What stands before the lens.
-fn obstacles(node: &Node, settings: &Settings) {
-    if !settings.bool("aperture_diffraction") || settings.origin("aperture_diffraction") == Origin::Default {
-        // An obstacle map has an effect on diffraction alone.
-        node.disregard_field("obstacle_map");
+impl Diffraction {
+    fn of(settings: &Settings) -> Self {
+        let is_filter = settings.bool("post_process_diffraction");
+        match (settings.bool("aperture_diffraction"), is_filter) {
+            (false, _) => Self::Off,
+            (true, true) => Self::Filter,
+            (true, false) => Self::Rays,
+        }
     }
+}
+
+/// Reads what the settings say of cameras, so that a scene without one has no further errors.
+pub(super) fn settings_without_camera(settings: &Settings) {
+    for field in ["aperture_diffraction", "post_process_diffraction", "vignetting"] {
+        settings.disregard(field);
+    }
+}
+
+/// The aperture with what stands before it, which matters to diffraction alone.
+fn pupil(node: &Node, aperture: &Aperture, diffraction: Diffraction, context: &mut Context) -> Pupil {
+    if diffraction == Diffraction::Off {
+        node.disregard_field("obstacle_map");
+        return Pupil::new(aperture.clone(), None);
+    }
+    let map = node.opt_text("obstacle_map");
+    let obstacles = map.as_ref().and_then(|path| aperture::obstacles(&path.value, path.span, context));
+    let pupil = Pupil::new(aperture.clone(), obstacles);
+    if let Some(path) = map.filter(|_| pupil.is_dark()) {
+        context.sink.push(
+            Diagnostic::error(
+                codes::BAD_FILE,
+                path.span,
+                format!("{} covers all of the aperture", path.value),
+            )
+            .expected("expected an image that is not black where the aperture is open"),
+        );
+    }
+    pupil
 }
 
 /// Sets the focus by what the camera sees in its direction, if it is to find its focus itself.
@@ -139,8 +180,22 @@ impl Unfocused {
         self.aperture.area() * self.lens.aperture_radius.powi(2)
     }
 
+    /// Diffraction as a filter on the picture, if that is how it is rendered.
+    pub(super) fn filter(&self) -> Option<Arc<DiffractionFilter>> {
+        if self.diffraction != Diffraction::Filter {
+            return None;
+        }
+        let cycle = ThinLens::new(&self.lens)?.cycle_per_nm();
+        let cycle = [cycle.x.to_f64(), cycle.y.to_f64()];
+        Some(Arc::new(DiffractionFilter::new(self.pupil.clone(), cycle)))
+    }
+
     /// The camera.
     pub(super) fn into_camera(self) -> Option<Camera> {
-        Some(Camera::new(ThinLens::new(&self.lens)?, self.aperture))
+        let camera = Camera::new(ThinLens::new(&self.lens)?, self.aperture);
+        if self.diffraction != Diffraction::Rays {
+            return Some(camera);
+        }
+        Some(camera.with_diffraction(&self.pupil.far_field()?))
     }
 }

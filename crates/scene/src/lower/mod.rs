@@ -17,7 +17,7 @@ mod placement;
 
 use crate::codes;
 use crate::load::LoadOptions;
-use crate::scene::{MetropolisSettings, Scene, TransportSettings};
+use crate::scene::{MetropolisSettings, OutputSettings, Scene, TransportSettings};
 use crate::settings::Settings;
 use geometry::Geometry;
 use indigo_decl::{Node, report_unread};
@@ -80,8 +80,11 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
     let transport = transport(settings);
     let film = picture::film(settings, context.sink);
     let output = picture::output(settings, context.sink, path);
-    camera::diffraction(settings, context.sink);
     let camera_node = find_camera(root, context.sink);
+    if camera_node.is_none() {
+        camera::settings_without_camera(settings);
+    }
+    let aperture_preview = camera_node.is_some_and(|c| c.has("aperture_shape"));
     let origin = camera_node.map_or(Vec3d::ZERO, |c| camera::position(c, context.sink));
     let camera = camera_node.and_then(|c| camera::parameters(c, settings, film.as_ref(), context));
 
@@ -150,7 +153,7 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
         transport,
         film: film?,
         picture: picture?,
-        output,
+        output: OutputSettings { aperture_preview, ..output },
     };
     scene.find_starting_media(&lamps);
     Some(scene)

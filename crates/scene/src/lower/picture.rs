@@ -7,7 +7,7 @@ use crate::settings::Settings;
 use indigo_decl::Node;
 use indigo_diag::{Diagnostic, Sink};
 use indigo_film::{FilmFilter, FilmSize, Filter};
-use indigo_imaging::{Exposure, PictureSettings, Region, ToneMapping, WhiteBalance};
+use indigo_imaging::{Bloom, Exposure, PictureSettings, Region, ToneMapping, WhiteBalance};
 use indigo_spectrum::illuminant;
 
 /// The tone mapping of a scene that has none.
@@ -102,7 +102,21 @@ pub(super) fn picture(
         let [x, y] = f.region?;
         Region::new([x[0], y[0]], [x[1], y[1]], f.size).ok()
     });
-    Some(PictureSettings { tone_mapping, white_balance, downsize, exposure, foreground_alpha, region })
+    Some(PictureSettings {
+        diffraction: opening.filter(),
+        bloom: bloom(camera),
+        tone_mapping,
+        white_balance,
+        downsize,
+        exposure,
+        foreground_alpha,
+        region,
+    })
+}
+
+fn bloom(camera: &Node) -> Option<Bloom> {
+    let node = camera.node("bloom")?;
+    Some(Bloom { weight: node.real("weight"), radius: node.real("radius") })
 }
 
 fn tone_mapping(root: &Node, sink: &mut Sink) -> ToneMapping {
@@ -140,6 +154,8 @@ pub(super) fn output(settings: &Settings, sink: &mut Sink, scene_path: &str) -> 
         scene_path: scene_path.to_owned(),
         untonemapped_exr: settings.bool("save_untonemapped_exr"),
         tonemapped_exr: settings.bool("save_tonemapped_exr"),
+        // The camera knows.
+        aperture_preview: false,
         image_save_period: settings.real("image_save_period"),
         halt_time: positive("halt_time"),
         halt_samples_per_pixel: positive("halt_samples_per_pixel"),

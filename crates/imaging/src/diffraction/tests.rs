@@ -1,0 +1,191 @@
+//! The picture of a lamp behind an aperture, against theory.
+
+use super::{Diffraction, kernels};
+use crate::Region;
+use crate::convolution::Plane;
+use indigo_camera::{Aperture, Blades, FarField, Pupil};
+use indigo_film::{FilmSize, XyzImage};
+use indigo_spectrum::observer::cmf;
+use std::sync::LazyLock;
+
+static CIRCLE: LazyLock<FarField> = LazyLock::new(|| far_field(Aperture::Circular));
+
+fn far_field(aperture: Aperture) -> FarField {
+    Pupil::new(aperture, None).far_field().unwrap()
+}
+
+fn blades(count: i64, start_angle: f64) -> FarField {
+    far_field(Aperture::generated(&Blades::new(count, start_angle, 0.4, 1e3).unwrap()))
+}
+
+/// What a lamp of one pixel looks like: offsets up to `reach` pixels, x to the right and y up, with X, Y and
+/// Z. A cycle at 550 nm is so many pixels wide.
+fn kernel(field: &FarField, pixels_per_cycle: f64, reach: usize) -> Vec<([f64; 2], [f64; 3])> {
+    let plane = Plane::new(reach + 1, reach + 1);
+    let kernels = kernels(field, &plane, [pixels_per_cycle / 550.0; 2]);
+    let wrapped = |v: i64, n: usize| v.rem_euclid(n as i64) as usize;
+    let reach = reach as i64;
+    let offsets = (-reach..=reach).flat_map(|y| (-reach..=reach).map(move |x| (x, y)));
+    offsets
+        .map(|(x, y)| {
+            let at = wrapped(-y, plane.rows) * plane.columns + wrapped(x, plane.columns);
+            ([x as f64, y as f64], [0, 1, 2].map(|c| kernels[c][at]))
+        })
+        .collect()
+}
+
+/// Bessel's function of order n by its integral, (1/π) ∫ cos(n t - x sin t) dt over [0, π]; the
+/// trapezoidal rule is exact to rounding once it has more points than x.
+fn bessel(n: f64, x: f64) -> f64 {
+    let points = 64 + 2 * x.abs() as usize;
+    let at = |k: usize| {
+        let t = std::f64::consts::PI * k as f64 / points as f64;
+        let weight = if k == 0 || k == points { 0.5 } else { 1.0 };
+        weight * (n * t - x * t.sin()).cos()
+    };
+    (0..=points).map(at).sum::<f64>() / points as f64
+}
+
+/// The part of white light of component `c` within a distance in cycles of 550 nm, behind a circle.
+fn airy_within(c: usize, cycles: f64) -> f64 {
+    let (mut sum, mut weights) = (0.0, 0.0);
+    for lambda in (360..=830).step_by(2).map(f64::from) {
+        let x = std::f64::consts::PI * cycles * 550.0 / lambda;
+        let weight = cmf(lambda)[c];
+        sum += weight * (1.0 - bessel(0.0, x).powi(2) - bessel(1.0, x).powi(2));
+        weights += weight;
+    }
+    sum / weights
+}
+
+/// Sums of the picture within a distance in pixels, and what theory says for each of X, Y and Z.
+fn assert_airy(pixels_per_cycle: f64, reach: usize, radii: &[f64]) {
+    let kernel = kernel(&CIRCLE, pixels_per_cycle, reach);
+    for &radius in radii {
+        for c in 0..3 {
+            let inside = kernel.iter().filter(|([x, y], _)| x.hypot(*y) <= radius);
+            let within: f64 = inside.map(|(_, p)| p[c]).sum();
+            let exact = airy_within(c, radius / pixels_per_cycle);
+            assert!(
+                ((1.0 - within) / (1.0 - exact) - 1.0).abs() < 0.02 && (within / exact - 1.0).abs() < 0.01,
+                "component {c} within {radius} pixels at {pixels_per_cycle}: {within} instead of {exact}"
+            );
+        }
+    }
+}
+
+/// The core, wide as seen in pixels.
+#[test]
+fn a_small_circle_makes_a_large_airy_disc() {
+    assert_airy(12.0, 150, &[10.0, 14.64, 20.0, 40.0, 120.0]);
+}
+
+/// The tail, far out as seen in cycles: some of the rings of the far field, and what lies beyond them.
+#[test]
+fn a_large_circle_makes_a_tail() {
+    // 0.2 pixels a cycle: the last ring of the far field lies at 100 pixels for green light.
+    assert_airy(0.2, 300, &[5.5, 15.5, 23.5, 26.5, 60.5, 120.5, 280.5]);
+}
+
+/// The profile has no step where sums over points end.
+#[test]
+fn near_and_far_meet() {
+    for pixels_per_cycle in [0.1, 1.0] {
+        let kernel = kernel(&CIRCLE, pixels_per_cycle, 50);
+        let mean = |lo: f64, hi: f64| {
+            let ring = kernel.iter().filter(|([x, y], _)| (lo..=hi).contains(&x.abs().max(y.abs())));
+            let values: Vec<f64> = ring.map(|([x, y], p)| p[1] * x.hypot(*y).powi(3)).collect();
+            values.iter().sum::<f64>() / values.len() as f64
+        };
+        let (near, far) = (mean(22.0, 24.0), mean(25.0, 27.0));
+        assert!((near / far - 1.0).abs() < 0.03, "{pixels_per_cycle}: {near} and {far}");
+    }
+}
+
+/// All light goes somewhere.
+#[test]
+fn light_is_kept() {
+    for pixels_per_cycle in [0.01, 0.3, 3.0] {
+        let kernel = kernel(&CIRCLE, pixels_per_cycle, 200);
+        for c in 0..3 {
+            let sum: f64 = kernel.iter().map(|(_, p)| p[c]).sum();
+            // A square holds more than the circle in it; what lies beyond falls with the distance.
+            let lost = 1.0 - airy_within(c, 200.0 / pixels_per_cycle);
+            assert!(sum <= 1.0 + 1e-6 && sum >= 1.0 - lost - 1e-6, "{pixels_per_cycle}: {sum}, {lost}");
+        }
+        assert!(kernel.iter().all(|(_, p)| p.iter().all(|v| *v >= 0.0)));
+    }
+}
+
+/// Number of bright directions at a distance, and that of the brightest, in turns from the right.
+fn streaks(kernel: &[([f64; 2], [f64; 3])], radius: f64) -> (usize, f64) {
+    let bins = 360;
+    let mut sums = vec![0.0; bins];
+    for ([x, y], p) in kernel.iter().filter(|([x, y], _)| (x.hypot(*y) / radius - 1.0).abs() < 0.2) {
+        let turn = (y.atan2(*x) / std::f64::consts::TAU).rem_euclid(1.0);
+        sums[(turn * bins as f64) as usize % bins] += p[1];
+    }
+    let mean = sums.iter().sum::<f64>() / bins as f64;
+    let is_peak = |i: &usize| {
+        let around =
+            (1..8).all(|k| sums[*i] >= sums[(i + k) % bins] && sums[*i] > sums[(i + bins - k) % bins]);
+        around && sums[*i] > 3.0 * mean
+    };
+    let brightest = (0..bins).max_by(|a, b| sums[*a].total_cmp(&sums[*b])).unwrap_or(0);
+    ((0..bins).filter(is_peak).count(), brightest as f64 / bins as f64)
+}
+
+#[test]
+fn five_blades_make_ten_streaks_and_six_make_six() {
+    for (n, count) in [(5, 10), (6, 6), (7, 14), (8, 8)] {
+        let kernel = kernel(&blades(n, 0.1), 0.1, 200);
+        for radius in [20.0, 60.0, 140.0] {
+            assert_eq!(streaks(&kernel, radius).0, count, "{n} blades at {radius}");
+        }
+    }
+}
+
+/// Streaks stand across edges: with four blades at 0.35 rad one of them points there, in a picture whose
+/// rows count downwards.
+#[test]
+fn streaks_turn_with_the_blades() {
+    let kernel = kernel(&blades(4, 0.35), 0.1, 200);
+    for radius in [20.0, 140.0] {
+        let (count, brightest) = streaks(&kernel, radius);
+        let off = (brightest - 0.35 / std::f64::consts::TAU) * 4.0;
+        assert!(count == 4 && (off - off.round()).abs() < 0.03, "{count} streaks, at {brightest} turns");
+    }
+}
+
+/// Red light is spread more than blue, so a white lamp's halo is red outside its blue.
+#[test]
+fn halos_are_red_outside() {
+    let kernel = kernel(&CIRCLE, 4.0, 64);
+    let sum = |c: usize| {
+        let far = kernel.iter().filter(|([x, y], _)| x.hypot(*y) > 8.0);
+        far.map(|(_, p)| p[c]).sum::<f64>()
+    };
+    assert!(sum(0) > 1.15 * sum(2), "{} {}", sum(0), sum(2));
+}
+
+#[test]
+fn only_the_region_is_touched() {
+    let size = FilmSize::new(32, 24, 2).unwrap();
+    let pixels: Vec<[f32; 4]> = (0..size.internal_pixels()).map(|i| [(i % 7) as f32; 4]).collect();
+    let before = XyzImage { size, missing: vec![false; pixels.len()], pixels };
+    let mut after = before.clone();
+    let region = Region::new([4, 2], [20, 22], size).unwrap();
+    let pupil = Pupil::new(Aperture::Circular, None);
+    Diffraction::new(pupil, [2e-4, 2e-4]).apply(&mut after, region);
+    let mut changed = 0;
+    for (i, (a, b)) in before.pixels.iter().zip(&after.pixels).enumerate() {
+        let (x, y) = (i % 64, i / 64);
+        if (8..40).contains(&x) && (4..44).contains(&y) {
+            changed += usize::from(a[1] != b[1]);
+            assert_eq!(a[3], b[3], "coverage is no light");
+        } else {
+            assert_eq!(a, b);
+        }
+    }
+    assert!(changed > 900, "{changed}");
+}

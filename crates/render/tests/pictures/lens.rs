@@ -1,0 +1,221 @@
+//! The lens: focus, the shape of the aperture, what it diffracts, and bloom.
+
+use super::common::judge::{assert_near, assert_same};
+use super::common::shapes::{Mesh, model};
+use super::common::text::{flat_camera, grey, scene_file, settings, uniform};
+use super::common::{film, scene, scene_with};
+use indigo_film::XyzImage;
+use indigo_imaging::{Picture, develop, on_sensor, png};
+use indigo_math::{Real, Vec2};
+use indigo_scene::Scene;
+use indigo_testkit::stats::Moments;
+
+/// Side of the pictures.
+const SIDE: usize = 32;
+/// First and last (excluded) column and row of the lamp in them.
+const LAMP: [usize; 2] = [12, 20];
+
+/// A square lamp over the camera that covers whole pixels; `more` goes into the camera.
+fn lamp_text(diffraction: &str, more: &str) -> String {
+    let set = settings(SIDE as u32, "<splat_filter><box/></splat_filter>")
+        .replace("<aperture_diffraction>false</aperture_diffraction>", diffraction);
+    // 32 pixels see 2 m at a distance of 1: half as many as the lamp is wide.
+    let half = 3.0 * (LAMP[1] - LAMP[0]) as f64 / SIDE as f64;
+    let camera =
+        flat_camera([0.0, 0.0, -3.0], [0.0, 0.0, 1.0], 1.0).replace("</camera>", &format!("{more}</camera>"));
+    scene_file(&[
+        set,
+        camera,
+        format!(
+            "<rectanglelight><pos>0 0 0</pos><width>{w}</width><height>{w}</height><spectrum>{s}</spectrum></rectanglelight>",
+            w = 2.0 * half,
+            s = uniform(1e5)
+        ),
+    ])
+}
+
+fn diffraction(is_filter: bool) -> String {
+    format!(
+        "<aperture_diffraction>true</aperture_diffraction><post_process_diffraction>{is_filter}</post_process_diffraction>"
+    )
+}
+
+fn shape(inner: &str) -> String {
+    format!("<aperture_shape>{inner}</aperture_shape>")
+}
+
+fn blades(count: u32) -> String {
+    shape(&format!(
+        "<generated><num_blades>{count}</num_blades><start_angle>0.3</start_angle><blade_offset>0.25</blade_offset><blade_curvature_radius>50</blade_curvature_radius></generated>"
+    ))
+}
+
+/// The light on the sensor.
+fn sensor(scene: &Scene, seed: u64, passes: u64) -> XyzImage {
+    on_sensor(film(scene, seed, passes).develop(), &scene.picture)
+}
+
+/// Mean of a component over columns and rows.
+fn mean(image: &XyzImage, component: usize, [columns, rows]: [[usize; 2]; 2]) -> f64 {
+    let pixels = (rows[0]..rows[1]).flat_map(|y| (columns[0]..columns[1]).map(move |x| y * SIDE + x));
+    Moments::of(pixels.map(|i| f64::from(image.pixels[i][component]))).mean()
+}
+
+/// The filter on the picture and the deflection of rays are one diffraction: on the lamp, at its edges, and
+/// beside it to both sides, above and below, for X, Y and Z. The filter makes up for light that leaves the
+/// picture, the rays do not need to; that is less than 1 % here.
+#[test]
+fn the_filter_and_the_rays_agree() {
+    let [filter, rays] = [true, false].map(|f| scene(&lamp_text(&diffraction(f), &blades(3))));
+    let sharp = scene(&lamp_text("<aperture_diffraction>false</aperture_diffraction>", &blades(3)));
+    let [lo, hi] = LAMP;
+    let regions = [
+        ("middle", [[lo + 2, hi - 2], [lo + 2, hi - 2]], 0.03),
+        ("inside the edge", [[hi - 1, hi], [lo, hi]], 0.03),
+        ("beside", [[hi, hi + 1], [lo, hi]], 0.03),
+        ("farther beside", [[hi + 1, hi + 4], [lo, hi]], 0.05),
+        ("above", [[lo, hi], [lo - 1, lo]], 0.03),
+        ("farther above", [[lo, hi], [lo - 4, lo - 1]], 0.05),
+    ];
+    let batches = |scene: &Scene, n: u64, passes: u64| -> Vec<XyzImage> {
+        (0..n).map(|seed| sensor(scene, 100 + seed, passes)).collect()
+    };
+    // A pattern looks the same from both sides.
+    let both = |image: &XyzImage, c: usize, region: [[usize; 2]; 2]| {
+        let opposite = region.map(|[lo, hi]| [SIDE - hi, SIDE - lo]);
+        0.5 * (mean(image, c, region) + mean(image, c, opposite))
+    };
+    let (filtered, deflected) = (batches(&filter, 2, 64), batches(&rays, 32, 256));
+    let plain = sensor(&sharp, 1, 64);
+    for (name, region, tolerance) in regions {
+        for c in 0..3 {
+            let expected = Moments::of(filtered.iter().map(|i| both(i, c, region))).mean();
+            let got = Moments::of(deflected.iter().map(|i| both(i, c, region)));
+            assert_near(&format!("{name}, {c}"), &got, expected, tolerance);
+            // There is something to see: without diffraction the lamp ends at its edge.
+            let without = both(&plain, c, region);
+            assert!((expected / without - 1.0).abs() > 0.02, "{name}, {c}: {expected} {without}");
+        }
+    }
+}
+
+/// Light of the film is kept by the filter but for what leaves the picture.
+#[test]
+fn the_filter_keeps_the_light() {
+    let scene = scene(&lamp_text(&diffraction(true), ""));
+    let before = film(&scene, 3, 16).develop();
+    let after = on_sensor(before.clone(), &scene.picture);
+    let whole = [[0, SIDE], [0, SIDE]];
+    for c in 0..3 {
+        let kept = mean(&after, c, whole) / mean(&before, c, whole);
+        assert!((kept - 1.0).abs() < 0.02, "{kept}");
+    }
+    assert!(before != after);
+}
+
+/// An obstacle map changes the picture with diffraction, and leaves it alone without.
+#[test]
+fn obstacles_diffract() {
+    let stripes = Picture {
+        width: 16,
+        height: 16,
+        pixels: (0..256).map(|i| [if i % 4 < 2 { 1.0 } else { 0.0 }; 4]).collect(),
+    };
+    let map = png::encode(&stripes, &indigo_imaging::Metadata::default(), png::Depth::Eight);
+    let map = map.expect("a picture with pixels");
+    let render = |diffraction: &str, more: &str| {
+        let text = lamp_text(diffraction, more);
+        sensor(&scene_with(&text, [("dust.png", map.clone())]), 1, 16)
+    };
+    let dusty = "<obstacle_map>dust.png</obstacle_map>";
+    assert!(render(&diffraction(true), dusty) != render(&diffraction(true), ""));
+    assert!(render(&diffraction(false), dusty) != render(&diffraction(false), ""));
+    let off = "<aperture_diffraction>false</aperture_diffraction>";
+    assert!(render(off, dusty) == render(off, ""));
+    // The path may stand in a child.
+    let child = "<obstacle_map><path>dust.png</path></obstacle_map>";
+    assert!(render(&diffraction(true), child) == render(&diffraction(true), dusty));
+}
+
+/// Bloom is in the picture that is shown, and not in the light on the sensor.
+#[test]
+fn bloom_is_shown_but_not_measured() {
+    let off = "<aperture_diffraction>false</aperture_diffraction>";
+    let with = |weight: f64, radius: f64| {
+        let bloom = format!("<bloom><weight>{weight}</weight><radius>{radius}</radius></bloom>");
+        scene(&lamp_text(off, &bloom).replace("<scale>1<", "<scale>1e4<"))
+    };
+    let at = |scene: &Scene, x: usize| develop(&film(scene, 1, 16), &scene.picture).pixels[16 * SIDE + x][1];
+    let scenes = [with(0.0, 0.05), with(0.2, 0.05), with(0.4, 0.05), with(0.4, 0.2)];
+    let beside = scenes.each_ref().map(|s| at(s, 21));
+    assert_eq!(beside[0], 0.0);
+    assert!(beside[1] > 0.0 && (beside[2] / beside[1] - 2.0).abs() < 1e-3, "{beside:?}");
+    assert!(at(&scenes[3], 30) > 10.0 * at(&scenes[2], 30), "a wider glow reaches farther");
+    assert!(sensor(&scenes[0], 1, 16) == sensor(&scenes[2], 1, 16));
+}
+
+/// The exposure is that of the opening, and the picture's luminance is not changed by it.
+#[test]
+fn the_exposure_follows_the_open_area() {
+    let off = "<aperture_diffraction>false</aperture_diffraction>";
+    let circle = scene(&lamp_text(off, &shape("<circular/>")));
+    // Three straight blades at a quarter of the width, 0.5 half sides: 3 ρ² tan 60 degrees.
+    let triangle = scene(&lamp_text(
+        off,
+        &blades(3).replace("<blade_curvature_radius>50<", "<blade_curvature_radius>1e9<"),
+    ));
+    let area = |s: &Scene| s.picture.exposure.lux_seconds_per_nit() / 0.01 * 0.05f64.powi(2) / 1e-10;
+    assert!((area(&circle) / std::f64::consts::PI - 1.0).abs() < 1e-6, "{}", area(&circle));
+    let exact = 3.0 * 0.25 * 3f64.sqrt();
+    assert!((area(&triangle) / exact - 1.0).abs() < 1e-6, "{} instead of {exact}", area(&triangle));
+    let [a, b] = [&circle, &triangle]
+        .map(|s| Moments::of((0..4).map(|seed| mean(&sensor(s, seed, 64), 1, [[12, 20], [12, 20]]))));
+    assert_same("luminance behind another shape", &a, &b);
+}
+
+/// An image of a half disc lets half the light in, and points of the lens are on its open side.
+#[test]
+fn an_image_is_an_aperture() {
+    let side = 512;
+    let pixels = (0..side * side).map(|i| [if i % side < side / 2 { 1.0 } else { 0.0 }; 4]).collect();
+    let picture = Picture { width: side, height: side, pixels };
+    let bytes = png::encode(&picture, &indigo_imaging::Metadata::default(), png::Depth::Eight);
+    let text = lamp_text(
+        "<aperture_diffraction>false</aperture_diffraction>",
+        &shape("<image><path>half.png</path></image>"),
+    );
+    let scene = scene_with(&text, [("half.png", bytes.expect("a picture"))]);
+    assert!((scene.camera.aperture().area() - 2.0).abs() < 1e-6);
+    for i in 0..64 {
+        let u = |k: i32| (k as Real + 0.5) / 8.0;
+        let p = scene.camera.aperture().sample(Vec2::new(u(i % 8), u(i / 8)));
+        assert!(p.x <= 0.0, "{p:?}");
+    }
+}
+
+/// Autofocus measures along the axis; it overrides a given distance, and is infinity where nothing is.
+#[test]
+fn autofocus_finds_what_is_in_the_middle() {
+    let text = |camera_more: &str, at: f64| {
+        let camera = flat_camera([0.0, 0.0, 5.0], [0.0, 0.0, -1.0], 0.3)
+            .replace("<focus_distance>1</focus_distance>", camera_more)
+            .replace("<aperture_radius>1e-5<", "<aperture_radius>0.1<");
+        let wall = Mesh::square(1.0, at).text("wall", "grey") + &model("wall");
+        let lamp = "<background><spectrum><uniform><value>1</value></uniform></spectrum></background>";
+        scene_file(&[settings(8, ""), camera, grey("grey", 0.5), wall, lamp.to_owned()])
+    };
+    let ray = |camera_more: &str, at: f64| {
+        let scene = scene(&text(camera_more, at));
+        scene.camera.ray(Vec2::new(0.2, 0.7), Vec2::new(0.9, 0.4))
+    };
+    let given = |d: f64| format!("<focus_distance>{d}</focus_distance>");
+    for at in [1.0, 3.5] {
+        let [auto, fixed] = [ray("<autofocus/>", at), ray(&given(5.0 - at), at)];
+        assert!((auto.direction - fixed.direction).length() < 1e-6);
+        assert_eq!(ray(&format!("<autofocus/>{}", given(77.0)), at), auto);
+    }
+    // The wall lies behind the camera: parallel rays.
+    let far = scene(&text("<autofocus/>", 9.0));
+    let at = |u: Real| far.camera.ray(Vec2::new(0.2, 0.7), Vec2::new(u, 0.4)).direction;
+    assert!((at(0.1) - at(0.9)).length() < 1e-6);
+}
