@@ -5,6 +5,7 @@
 //! | [`obj`], [`ply`], [`three_ds`], [`igmesh`] | meshes | [`MeshData`] |
 //! | [`image`] | PNG, JPEG, TGA, BMP, TIFF, HDR, EXR | [`image::Image`] |
 //! | [`float_map`] | .float | [`image::Image`] |
+//! | [`ies`] | photometric data of lamps | [`ies::Photometry`] |
 //!
 //! Readers take the whole file as bytes: who opens it, and where, is the caller's business. Files may be damaged or
 //! hostile: a reader never panics, never allocates by a number that the file merely claims, and takes a time bounded by
@@ -18,6 +19,7 @@ mod builder;
 mod bytes;
 mod error;
 pub mod float_map;
+pub mod ies;
 pub mod igmesh;
 pub mod image;
 mod mesh_file;

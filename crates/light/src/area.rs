@@ -1,20 +1,31 @@
 //! Lamps made of triangles: mesh lights and rectangles.
 
+use crate::modulation::Modulation;
+use crate::profile::Profile;
 use crate::query::EmitterPoint;
 use indigo_math::distribution::AliasTable;
 use indigo_math::warp::{cosine_hemisphere, cosine_hemisphere_pdf, uniform_triangle};
 use indigo_math::{Frame, Real, Vec2, Vec3, Vec3d};
 use indigo_spectrum::{SampledSpectrum, SampledWavelengths, Spectrum};
+use indigo_texture::Texture;
+use std::f64::consts::PI;
 
-/// Triangles that all emit the same radiance from their front, evenly over area and direction.
+/// Triangles that emit from their front: the same radiance everywhere and in all directions, unless an
+/// image map modulates it over the surface or a profile over directions.
 #[derive(Clone, Debug)]
 pub struct AreaLight {
-    /// Radiance, W m^-3 sr^-1.
-    pub radiance: Spectrum,
+    /// Radiance, W m^-3 sr^-1; with a profile that of a mean luminance of 1 cd/m².
+    radiance: Spectrum,
     triangles: Vec<EmitterTriangle>,
-    by_area: AliasTable,
+    /// Over the triangles, by their flux.
+    choice: AliasTable,
+    /// For each triangle its probability over its area, 1/m².
+    density: Vec<Real>,
+    modulation: Option<Modulation>,
+    photometry: Option<Photometry>,
+    /// The triangles' areas, m², and their sum.
+    areas: Vec<f64>,
     area_m2: f64,
-    pdf_area: Real,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -23,6 +34,14 @@ struct EmitterTriangle {
     edge1: Vec3,
     edge2: Vec3,
     normal: Vec3,
+}
+
+/// A profile, and how it lies on each triangle.
+#[derive(Clone, Debug)]
+struct Photometry {
+    profile: Profile,
+    frames: Vec<Frame>,
+    inverse_area: Real,
 }
 
 impl AreaLight {
@@ -44,9 +63,73 @@ impl AreaLight {
                 }
             })
             .collect();
-        let area_m2: f64 = areas.iter().sum();
-        let pdf_area = (1.0 / area_m2) as Real;
-        Self { radiance, triangles, by_area: AliasTable::new(&areas), area_m2, pdf_area }
+        let mut light = Self {
+            radiance,
+            triangles,
+            choice: AliasTable::default(),
+            density: vec![],
+            modulation: None,
+            photometry: None,
+            area_m2: areas.iter().sum(),
+            areas,
+        };
+        light.choose_by(|_| 1.0);
+        light
+    }
+
+    /// The lamp that shines from the other side of its triangles.
+    #[must_use]
+    pub fn turned_over(mut self) -> Self {
+        self.triangles.iter_mut().for_each(|t| t.normal = -t.normal);
+        self
+    }
+
+    /// The lamp with an image map that multiplies its spectrum, laid on by texture coordinates of each
+    /// triangle's corners.
+    #[must_use]
+    pub fn with_texture(mut self, texture: Texture, uvs: &[[Vec2<f64>; 3]]) -> Self {
+        let modulation = Modulation::new(texture, uvs, &self.radiance);
+        let sum: f64 = self.areas.iter().enumerate().map(|(i, area)| area * modulation.mean(i)).sum();
+        let overall = sum / self.area_m2;
+        self.choose_by(|i| modulation.weight(i, overall));
+        self.modulation = Some(modulation);
+        self
+    }
+
+    /// The lamp with its spectrum scaled to a luminous flux in lm; `None` where it has no light to scale, or no
+    /// area. A profile has a flux of its own.
+    #[must_use]
+    pub fn with_flux(mut self, flux_lm: f64) -> Option<Self> {
+        let scale = flux_lm / self.flux();
+        self.radiance = self.radiance.scaled(scale);
+        (scale.is_finite() && self.area_m2 > 0.0).then_some(self)
+    }
+
+    /// The lamp with the directions and the flux of a profile, whose horizontal angles count from the `x_axis`
+    /// of the mesh, in render space; `None` where it has no light to scale, or no area.
+    #[must_use]
+    pub fn with_profile(mut self, profile: Profile, x_axis: Vec3d) -> Option<Self> {
+        let scale = 1.0 / self.mean_luminance();
+        self.radiance = self.radiance.scaled(scale);
+        let frames = self.triangles.iter().map(|t| horizontal_frame(t.normal, x_axis.cast())).collect();
+        let inverse_area = (1.0 / self.area_m2) as Real;
+        self.photometry = Some(Photometry { profile, frames, inverse_area });
+        (scale.is_finite() && self.area_m2 > 0.0).then_some(self)
+    }
+
+    /// Sets how triangles are chosen: by area times a weight.
+    fn choose_by(&mut self, weight: impl Fn(usize) -> f64) {
+        let weights: Vec<f64> = self.areas.iter().enumerate().map(|(i, area)| area * weight(i)).collect();
+        let sum: f64 = weights.iter().sum();
+        self.choice = AliasTable::new(&weights);
+        // Where all weights are 0 the table is even; triangles without area are never met.
+        let share = |w: f64| if sum > 0.0 { w / sum } else { 1.0 / weights.len() as f64 };
+        self.density = weights.iter().zip(&self.areas).map(|(&w, area)| (share(w) / area) as Real).collect();
+    }
+
+    /// Radiance without map and profile, W m^-3 sr^-1.
+    pub fn radiance(&self) -> &Spectrum {
+        &self.radiance
     }
 
     /// Emitting area in m².
@@ -54,21 +137,49 @@ impl AreaLight {
         self.area_m2
     }
 
-    /// Luminous flux in lm: π · area · luminance.
+    /// Luminous flux in lm: π · area · luminance, or that of the profile.
     pub fn flux(&self) -> f64 {
-        std::f64::consts::PI * self.area_m2 * self.radiance.luminance()
+        self.photometry
+            .as_ref()
+            .map_or_else(|| PI * self.area_m2 * self.mean_luminance(), |p| p.profile.flux())
     }
 
-    /// Radiance that leaves a point of a triangle in a unit direction of its front.
+    /// Luminance (cd/m²) without the profile, mean over the area.
+    fn mean_luminance(&self) -> f64 {
+        let Some(modulation) = &self.modulation else { return self.radiance.luminance() };
+        let sum: f64 = self.areas.iter().enumerate().map(|(i, area)| area * modulation.mean(i)).sum();
+        // The map's means are those of the spectrum that it was laid on.
+        sum / self.area_m2 * (self.radiance.luminance() / modulation.luminance())
+    }
+
+    /// Whether light leaves the back, too.
+    #[inline]
+    pub(crate) fn is_two_sided(&self) -> bool {
+        self.photometry.as_ref().is_some_and(|p| p.profile.is_two_sided())
+    }
+
+    /// Radiance that leaves a point of a triangle in a unit direction.
     #[inline]
     pub(crate) fn emitted(
         &self,
-        _triangle: u32,
-        _bary: (Real, Real),
-        _wo: Vec3,
+        triangle: u32,
+        bary: (Real, Real),
+        wo: Vec3,
         lambda: &SampledWavelengths,
     ) -> SampledSpectrum {
-        self.radiance.eval(lambda)
+        let mut radiance = self.radiance.eval(lambda);
+        if let Some(modulation) = &self.modulation {
+            radiance *= modulation.factor(triangle, bary, lambda);
+        }
+        if let Some(photometry) = &self.photometry {
+            // Each part of the area sends its share of the intensity: L = I / (A |cos|).
+            let local = photometry.frames[triangle as usize].to_local(wo);
+            if local.z == 0.0 {
+                return SampledSpectrum::ZERO;
+            }
+            radiance *= photometry.profile.intensity(local) * photometry.inverse_area / local.z.abs();
+        }
+        radiance
     }
 
     /// A point, with density [`pdf_point`](Self::pdf_point); `None` where there is no area.
@@ -77,33 +188,49 @@ impl AreaLight {
         if self.area_m2 == 0.0 {
             return None;
         }
-        let (i, _, _) = self.by_area.sample(u[0]);
+        let (i, _, _) = self.choice.sample(u[0]);
         let t = &self.triangles[i];
-        let (b1, b2) = uniform_triangle(Vec2::new(u[1], u[2]));
-        let (a, b) = (t.edge1 * b1, t.edge2 * b2);
+        let v = Vec2::new(u[1], u[2]);
+        let bary = self.modulation.as_ref().map_or_else(|| uniform_triangle(v), |m| m.sample(i, v));
+        let (a, b) = (t.edge1 * bary.0, t.edge2 * bary.1);
         // Two products and two sums, each rounded once, of magnitudes that the terms bound.
         let p_error = (t.corner.abs() + a.abs() + b.abs()) * (4.0 * Real::EPSILON);
-        Some(EmitterPoint { p: t.corner + a + b, p_error, n: t.normal, triangle: i as u32, bary: (b1, b2) })
+        Some(EmitterPoint { p: t.corner + a + b, p_error, n: t.normal, triangle: i as u32, bary })
     }
 
     /// Density of [`sample_point`](Self::sample_point) over area (1/m²).
     #[inline]
-    pub(crate) fn pdf_point(&self, _triangle: u32, _bary: (Real, Real)) -> Real {
-        self.pdf_area
+    pub(crate) fn pdf_point(&self, triangle: u32, bary: (Real, Real)) -> Real {
+        let density = self.density[triangle as usize];
+        self.modulation.as_ref().map_or(density, |m| density * m.pdf(triangle, bary))
     }
 
-    /// A direction in which light leaves a point, with density
-    /// [`pdf_direction`](Self::pdf_direction).
+    /// A direction in which light leaves a point, with density [`pdf_direction`](Self::pdf_direction).
     #[inline]
-    pub(crate) fn sample_direction(at: &EmitterPoint, v: [Real; 2]) -> Vec3 {
-        Frame::from_normal(at.n).to_world(cosine_hemisphere(v.into()))
+    pub(crate) fn sample_direction(&self, at: &EmitterPoint, v: [Real; 2]) -> Vec3 {
+        match &self.photometry {
+            None => Frame::from_normal(at.n).to_world(cosine_hemisphere(v.into())),
+            Some(p) => p.frames[at.triangle as usize].to_world(p.profile.sample(v)),
+        }
     }
 
-    /// Density (1/sr) of [`sample_direction`](Self::sample_direction) where the front's unit normal is `n`.
+    /// Density (1/sr) of [`sample_direction`](Self::sample_direction) from a triangle whose front has the
+    /// unit normal `n`.
     #[inline]
-    pub(crate) fn pdf_direction(n: Vec3, wo: Vec3) -> Real {
-        cosine_hemisphere_pdf(wo.dot(n))
+    pub(crate) fn pdf_direction(&self, triangle: u32, n: Vec3, wo: Vec3) -> Real {
+        match &self.photometry {
+            None => cosine_hemisphere_pdf(wo.dot(n)),
+            Some(p) => p.profile.pdf(p.frames[triangle as usize].to_local(wo)),
+        }
     }
+}
+
+/// The frame of a profile on a triangle: z along the normal, x as near as can be to the mesh's, and y so that
+/// angles from x to y run counter-clockwise seen from behind the lamp.
+fn horizontal_frame(normal: Vec3, x_axis: Vec3) -> Frame {
+    let x = (x_axis - normal * normal.dot(x_axis)).try_normalized();
+    let x = x.unwrap_or_else(|| Frame::from_normal(normal).s);
+    Frame { s: x, t: x.cross(normal), n: normal }
 }
 
 #[cfg(test)]
@@ -150,6 +277,13 @@ mod tests {
         let light = two_triangles();
         let expected = std::f64::consts::PI * 2.5 * 3.0 * 7.298_348_81e-5;
         assert!((light.flux() / expected - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn lumens_on_the_box_are_lumens_of_the_lamp() {
+        let light = two_triangles().with_flux(1750.0).unwrap();
+        assert!((light.flux() / 1750.0 - 1.0).abs() < 1e-9);
+        assert!(AreaLight::new(Spectrum::BLACK, &[]).with_flux(1.0).is_none());
     }
 
     #[test]

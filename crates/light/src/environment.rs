@@ -1,16 +1,23 @@
 //! All that is infinitely far away: several lights whose radiances add.
 
 use crate::kinds::{Distant, DistantLight};
-use crate::query::EmissionPdf;
+use crate::portals::Portals;
+use crate::query::{EmissionPdf, Receiver};
 use indigo_math::distribution::AliasTable;
 use indigo_math::warp::{INV_PI, concentric_disk};
 use indigo_math::{Float, Frame, Real, Vec3, Vec3d};
 use indigo_spectrum::{SampledSpectrum, SampledWavelengths};
+use std::f64::consts::PI;
 
 /// The surroundings of a scene.
 ///
-/// A direction is drawn by one of the lights; its density is the mixture of all of theirs. Light enters the scene through a disc as wide as the scene, across its
-/// direction.
+/// A direction is drawn by one of the lights; its density is the mixture of all of theirs. Light enters
+/// the scene through a disc as wide as the scene, across its direction. Where there are portals it enters
+/// through them, and a part of the draws for a receiver is left to them: that of each light which it
+/// states ([`Distant::portal_share`]).
+///
+/// Portals change what is drawn, not what there is: light that comes by another way is found by scattering
+/// alone, and counts in full.
 #[derive(Clone, Debug)]
 pub(crate) struct Environment {
     lights: Vec<DistantLight>,
@@ -18,18 +25,36 @@ pub(crate) struct Environment {
     /// A sphere round everything that the environment can light.
     center: Vec3,
     radius: Real,
+    portals: Option<Portals>,
+    /// Probability that a draw for a receiver is left to the portals.
+    portal_chance: Real,
 }
 
 impl Environment {
-    /// Lights round a scene that lies within a sphere of some centre and radius in metres.
-    pub fn new(lights: Vec<DistantLight>, (center, radius_m): (Vec3d, f64)) -> Self {
+    /// Lights round a scene that lies within a sphere of some centre and radius in metres, and its portals.
+    pub fn new(
+        lights: Vec<DistantLight>,
+        (center, radius_m): (Vec3d, f64),
+        portals: Option<Portals>,
+    ) -> Self {
         let totals: Vec<f64> = lights.iter().map(Distant::total_luminance).collect();
         let sum: f64 = totals.iter().sum();
         // Half by how much light each gives, half evenly: where the strongest, the sun above all, is
         // hidden, the others are all there is.
         let weight = |total: &f64| if sum > 0.0 { total / sum } else { 0.0 } + 1.0 / totals.len() as f64;
         let weights: Vec<f64> = totals.iter().map(weight).collect();
-        Self { choice: AliasTable::new(&weights), lights, center: center.cast(), radius: radius_m as Real }
+        let mut environment = Self {
+            choice: AliasTable::new(&weights),
+            lights,
+            center: center.cast(),
+            radius: radius_m as Real,
+            portals,
+            portal_chance: 0.0,
+        };
+        let shares =
+            (0..environment.lights.len()).map(|i| environment.choice.probability(i) * environment.share(i));
+        environment.portal_chance = shares.sum();
+        environment
     }
 
     /// The lights.
@@ -37,10 +62,16 @@ impl Environment {
         &self.lights
     }
 
-    /// Luminous flux in lm that enters the scene's sphere.
+    /// The portals.
+    pub fn portals(&self) -> Option<&Portals> {
+        self.portals.as_ref()
+    }
+
+    /// Luminous flux in lm that enters the scene: across its sphere, or by a quarter of the portals' area, which
+    /// is what their fronts show in the mean over all directions.
     pub fn flux(&self) -> f64 {
         let radius = self.radius.to_f64();
-        let across = std::f64::consts::PI * radius * radius;
+        let across = self.portals.as_ref().map_or(PI * radius * radius, |p| 0.25 * p.area());
         self.lights.iter().map(Distant::total_luminance).sum::<f64>() * across
     }
 
@@ -50,32 +81,69 @@ impl Environment {
         self.lights.iter().fold(SampledSpectrum::ZERO, |sum, light| sum + light.radiance(towards, lambda))
     }
 
-    /// A direction of light for a receiver with unit normal `n`, or zero for all sides.
+    /// The part of a light's draws that is left to the portals.
     #[inline]
-    pub fn sample(&self, n: Vec3, u: [Real; 3]) -> Option<Vec3> {
-        let (i, _, _) = self.choice.sample(u[0]);
-        self.lights[i].sample(n, [u[1], u[2]])
+    fn share(&self, light: usize) -> Real {
+        if self.portals.is_some() { self.lights[light].portal_share() } else { 0.0 }
+    }
+
+    /// A direction of light for a receiver.
+    #[inline]
+    pub fn sample(&self, to: &Receiver, u: [Real; 3]) -> Option<Vec3> {
+        let (i, _, v) = self.choice.sample(u[0]);
+        let share = self.share(i);
+        match &self.portals {
+            Some(portals) if v < share => portals.sample_direction(to.p, [v / share, u[1], u[2]]),
+            _ => self.lights[i].sample(to.n, [u[1], u[2]]),
+        }
     }
 
     /// Density (1/sr) of [`sample`](Self::sample).
     #[inline]
-    pub fn pdf(&self, n: Vec3, towards: Vec3) -> Real {
-        let part = |(i, light): (usize, &DistantLight)| self.choice.probability(i) * light.pdf(n, towards);
-        self.lights.iter().enumerate().map(part).sum()
+    pub fn pdf(&self, to: &Receiver, towards: Vec3) -> Real {
+        let own = |i: usize| {
+            let part = self.choice.probability(i) * (1.0 - self.share(i));
+            if part > 0.0 { part * self.lights[i].pdf(to.n, towards) } else { 0.0 }
+        };
+        let through = self.portals.as_ref().map_or(0.0, |portals| {
+            if self.portal_chance > 0.0 {
+                self.portal_chance * portals.pdf_direction(to.p, towards)
+            } else {
+                0.0
+            }
+        });
+        (0..self.lights.len()).map(own).sum::<Real>() + through
     }
 
     /// A direction towards the light, and a point beyond the scene where the light enters.
     #[inline]
     pub fn sample_emission(&self, u: [Real; 3], v: [Real; 2]) -> Option<(Vec3, Vec3)> {
-        let towards = self.sample(Vec3::ZERO, u)?;
-        let disk = concentric_disk(v.into()) * self.radius;
-        let place = Frame::from_normal(towards).to_world(Vec3::new(disk.x, disk.y, self.radius));
-        Some((towards, self.center + place))
+        let (i, _, rest) = self.choice.sample(u[0]);
+        let towards = self.lights[i].sample(Vec3::ZERO, [u[1], u[2]])?;
+        let Some(portals) = &self.portals else {
+            let disk = concentric_disk(v.into()) * self.radius;
+            let place = Frame::from_normal(towards).to_world(Vec3::new(disk.x, disk.y, self.radius));
+            return Some((towards, self.center + place));
+        };
+        let (at, n) = portals.sample_point([rest, v[0], v[1]]);
+        // What comes from the interior does not enter.
+        if towards.dot(n) >= 0.0 {
+            return None;
+        }
+        // Back to before the scene: what stands before the portal is in the light's way.
+        let ahead = self.radius + (self.center - at).dot(towards);
+        Some((towards, at + towards * ahead))
     }
 
     /// Densities of [`sample_emission`](Self::sample_emission) for light from a direction through a point.
     #[inline]
-    pub fn pdf_emission(&self, towards: Vec3, _through: Vec3) -> EmissionPdf {
-        EmissionPdf { first: self.pdf(Vec3::ZERO, towards), second: INV_PI / (self.radius * self.radius) }
+    pub fn pdf_emission(&self, towards: Vec3, through: Vec3) -> EmissionPdf {
+        let part =
+            |(i, light): (usize, &DistantLight)| self.choice.probability(i) * light.pdf(Vec3::ZERO, towards);
+        let second = match &self.portals {
+            None => INV_PI / (self.radius * self.radius),
+            Some(portals) => portals.pdf_line(through, towards),
+        };
+        EmissionPdf { first: self.lights.iter().enumerate().map(part).sum(), second }
     }
 }

@@ -3,11 +3,16 @@
 mod area;
 mod environment;
 pub mod kinds;
+mod modulation;
+mod portals;
+mod profile;
 mod query;
 pub mod sky;
 mod table;
 
 pub use area::AreaLight;
 pub use kinds::{Distant, DistantLight};
+pub use portals::{Passage, Portals};
+pub use profile::Profile;
 pub use query::{Emission, EmissionPdf, EmitterHit, EmitterPoint, LightSample, Receiver};
 pub use table::LightTable;

@@ -3,6 +3,7 @@
 use crate::area::AreaLight;
 use crate::environment::Environment;
 use crate::kinds::DistantLight;
+use crate::portals::Portals;
 use crate::query::{Emission, EmissionPdf, EmitterHit, LightSample, Receiver};
 use indigo_math::distribution::AliasTable;
 use indigo_math::{Real, Vec3, Vec3d};
@@ -30,7 +31,18 @@ impl LightTable {
         object_lamps: impl Iterator<Item = Option<u32>>,
         sphere: (Vec3d, f64),
     ) -> Self {
-        let environment = (!distant.is_empty()).then(|| Environment::new(distant, sphere));
+        Self::with_portals(lamps, distant, object_lamps, sphere, None)
+    }
+
+    /// The same with portals through which the distant light comes in.
+    pub fn with_portals(
+        lamps: Vec<AreaLight>,
+        distant: Vec<DistantLight>,
+        object_lamps: impl Iterator<Item = Option<u32>>,
+        sphere: (Vec3d, f64),
+        portals: Option<Portals>,
+    ) -> Self {
+        let environment = (!distant.is_empty()).then(|| Environment::new(distant, sphere, portals));
         let powers = lamps.iter().map(AreaLight::flux).chain(environment.as_ref().map(Environment::flux));
         Self {
             by_power: AliasTable::new(&powers.collect::<Vec<f64>>()),
@@ -48,6 +60,11 @@ impl LightTable {
     /// Whether there is no light.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
+    }
+
+    /// The portals through which distant light comes in.
+    pub fn portals(&self) -> Option<&Portals> {
+        self.environment.as_ref()?.portals()
     }
 
     /// Whether an object is a lamp.
@@ -78,10 +95,15 @@ impl LightTable {
         let Some(lamp) = self.lamps.get(i) else {
             return self.sample_environment(to, [u0, u[1], u[2]], lambda);
         };
-        let point = lamp.sample_point([u0, u[1], u[2]])?;
+        let mut point = lamp.sample_point([u0, u[1], u[2]])?;
+        let front = point.n;
         let way = point.p - to.p;
         let distance2 = way.length2();
         let wi = way / distance2.sqrt();
+        let seen = -wi.dot(front);
+        if seen < 0.0 && lamp.is_two_sided() {
+            point.n = -front;
+        }
         let cos = -wi.dot(point.n);
         if cos <= 0.0 || distance2 == 0.0 {
             return None;
@@ -91,7 +113,10 @@ impl LightTable {
             wi,
             radiance: lamp.emitted(point.triangle, point.bary, -wi, lambda),
             pdf: over_area * distance2 / cos,
-            pdf_emission: EmissionPdf { first: over_area, second: AreaLight::pdf_direction(point.n, -wi) },
+            pdf_emission: EmissionPdf {
+                first: over_area,
+                second: lamp.pdf_direction(point.triangle, front, -wi),
+            },
             point: Some(point),
         })
     }
@@ -104,7 +129,7 @@ impl LightTable {
         lambda: &SampledWavelengths,
     ) -> Option<LightSample> {
         let environment = self.environment.as_ref()?;
-        let wi = environment.sample(to.n, u)?;
+        let wi = environment.sample(to, u)?;
         let pdf = self.pdf_environment(to, wi);
         (pdf > 0.0).then(|| LightSample {
             wi,
@@ -124,17 +149,18 @@ impl LightTable {
         lambda: &SampledWavelengths,
     ) -> Option<SampledSpectrum> {
         let (_, lamp) = self.lamp(hit.object)?;
-        (wo.dot(hit.n) > 0.0).then(|| lamp.emitted(hit.triangle, hit.bary, wo, lambda))
+        (wo.dot(hit.n) > 0.0 || lamp.is_two_sided()).then(|| lamp.emitted(hit.triangle, hit.bary, wo, lambda))
     }
 
     /// Density (1/sr) with which [`sample`](Self::sample) draws a point of an object for a receiver
-    /// that it shows its front.
+    /// that it shows a side that shines.
     #[inline]
     pub fn pdf_object(&self, hit: &EmitterHit, to: &Receiver) -> Real {
         let Some((i, lamp)) = self.lamp(hit.object) else { return 0.0 };
         let way = to.p - hit.p;
         let distance2 = way.length2();
-        let cos = way.dot(hit.n) / distance2.sqrt();
+        let seen = way.dot(hit.n) / distance2.sqrt();
+        let cos = if lamp.is_two_sided() { seen.abs() } else { seen };
         // Edge-on, or at the point itself, it is not drawn.
         if cos.is_nan() || cos <= 0.0 {
             return 0.0;
@@ -149,7 +175,7 @@ impl LightTable {
         let Some((i, lamp)) = self.lamp(hit.object) else { return EmissionPdf::NEVER };
         EmissionPdf {
             first: self.by_power.probability(i) * lamp.pdf_point(hit.triangle, hit.bary),
-            second: AreaLight::pdf_direction(hit.n, wo),
+            second: lamp.pdf_direction(hit.triangle, hit.n, wo),
         }
     }
 
@@ -162,7 +188,7 @@ impl LightTable {
     /// Density (1/sr) with which [`sample`](Self::sample) draws a direction of the environment.
     #[inline]
     pub fn pdf_environment(&self, to: &Receiver, wi: Vec3) -> Real {
-        self.environment.as_ref().map_or(0.0, |e| self.environment_chance() * e.pdf(to.n, wi))
+        self.environment.as_ref().map_or(0.0, |e| self.environment_chance() * e.pdf(to, wi))
     }
 
     /// Densities with which [`sample_emission`](Self::sample_emission) draws light from a direction of
@@ -190,12 +216,15 @@ impl LightTable {
         let Some(lamp) = self.lamps.get(i) else {
             return self.sample_emission_environment([u0, u[1], u[2]], v, lambda);
         };
-        let point = lamp.sample_point([u0, u[1], u[2]])?;
-        let direction = AreaLight::sample_direction(&point, v);
+        let mut point = lamp.sample_point([u0, u[1], u[2]])?;
+        let direction = lamp.sample_direction(&point, v);
         let pdf = EmissionPdf {
             first: chance * lamp.pdf_point(point.triangle, point.bary),
-            second: AreaLight::pdf_direction(point.n, direction),
+            second: lamp.pdf_direction(point.triangle, point.n, direction),
         };
+        if direction.dot(point.n) < 0.0 {
+            point.n = -point.n;
+        }
         (pdf.second > 0.0).then(|| Emission {
             origin: point.p,
             radiance: lamp.emitted(point.triangle, point.bary, direction, lambda),

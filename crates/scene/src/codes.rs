@@ -17,6 +17,12 @@ indigo_decl::codes! {
     NOT_UNIT = "W0307", "<plane><normal>0 0 2</normal><dist>0</dist><material_name>white</material_name></plane>";
     /// Texels of an environment map that cannot be light.
     BAD_TEXELS = "W0308", "(an environment map with negative texels)";
+    /// A lamp whose flux is given twice.
+    FLUX_TWICE = "W0310", "(a `meshlight` with `ies_profile` and `efficacy_scale`)";
+    /// Portals without light outside.
+    IDLE_PORTALS = "W0311", "(an `exit_portal` without `background`, `skylight` and `env_map`)";
+    /// Openings that no portal covers.
+    UNCOVERED = "W0312", "(a room with two windows and one `exit_portal`)";
     /// A turbidity beyond what the model of the sky knows.
     TURBIDITY = "W0309", "<skylight><sundir>0 0.6 1</sundir><turbidity>30</turbidity></skylight>";
     /// A name that nothing defines.

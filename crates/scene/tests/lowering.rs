@@ -243,11 +243,6 @@ fn lamps() {
 
 #[test]
 fn whatever_is_not_rendered_yet_is_named_where_it_stands() {
-    expect_one(
-        "<exit_portal><pos>0 0 0</pos><scale>1</scale><mesh_name>tri</mesh_name></exit_portal>",
-        "<exit_portal>",
-        "E0205",
-    );
     let used = "<sphere><center>0 0 0</center><radius>1</radius><material_name>p</material_name></sphere>";
     let phong = format!(
         "<material><name>p</name><phong><ior>1.5</ior><exponent>9</exponent></phong></material>{used}"

@@ -77,6 +77,11 @@ impl Texture {
         Self { uv_set, ..self.clone() }
     }
 
+    /// Width and height in texels.
+    pub fn size(&self) -> [u32; 2] {
+        [self.width, self.height]
+    }
+
     /// Bytes of the texels.
     pub fn memory_bytes(&self) -> usize {
         match &*self.texels {

@@ -55,4 +55,9 @@ impl Distant for Background {
     fn total_luminance(&self) -> f64 {
         4.0 * std::f64::consts::PI * self.0.luminance()
     }
+
+    #[inline]
+    fn portal_share(&self) -> Real {
+        1.0
+    }
 }

@@ -212,6 +212,11 @@ impl Distant for EnvMap {
     fn total_luminance(&self) -> f64 {
         self.total_luminance
     }
+
+    #[inline]
+    fn portal_share(&self) -> Real {
+        0.5
+    }
 }
 
 /// Relative luminance of linear Rec. 709.

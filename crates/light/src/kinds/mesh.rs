@@ -22,13 +22,14 @@ pub static BLOCK: Block = Block::new(
             "texture",
             Kind::Block(&TEXTURE),
             Presence::Optional,
-            "An image map that multiplies the spectrum.",
+            "An image map that multiplies the spectrum. Its values may go beyond 1.",
         ),
         Field::new(
             "ies_profile",
             Kind::Block(&IES_PROFILE),
             Presence::Optional,
-            "A measured distribution over directions. The flux is then that of the file.",
+            "A measured distribution over directions. The flux is then that of the file, and `efficacy_scale` \
+             has no effect.",
         ),
     ],
 )
@@ -52,9 +53,11 @@ pub static BLOCK: Block = Block::new(
 /// The declaration of `ies_profile`.
 pub static IES_PROFILE: Block = Block::new(
     "ies_profile",
-    "A measured distribution of light over directions, from a file by ANSI/IESNA LM-63-2002. Each \
-     triangle emits about its own normal, so the mesh should be flat. Files of photometric type C with \
-     vertical angles from 0 to 90 degrees are supported.",
+    "A measured distribution of light over directions, from a file by IES LM-63 (1986, 1991, 1995 or 2002). Each \
+     triangle emits about its own normal, so the mesh should be flat. Horizontal angles count from the x \
+     axis of the mesh, counter-clockwise seen from behind the lamp. Files of photometric type C with \
+     vertical angles from 0 to 90 degrees are supported, and from 0 to 180: such a lamp shines from the back \
+     of its triangles, too. Factors for tilt (TILT=INCLUDE) do not apply to a fixed lamp.",
     &[Field::new("path", Kind::Path, Presence::Required, "The IES file, relative to the scene file.")],
 )
 .with_later(&[Later::new("material_name", "1.1")])

@@ -33,6 +33,10 @@ pub trait Distant {
 
     /// Luminance integrated over all directions, cd sr/m²: what a small ball's surface gets of it, times 4.
     fn total_luminance(&self) -> f64;
+
+    /// The part of the draws for a receiver that is left to the portals of a scene, if it has any: all of them
+    /// for an even light, none where all of it comes from one direction.
+    fn portal_share(&self) -> Real;
 }
 
 /// Makes the enum of distant lights and everything that goes through all of them.
@@ -84,6 +88,13 @@ macro_rules! distant_lights {
             fn total_luminance(&self) -> f64 {
                 match self {
                     $(Self::$light(l) => l.total_luminance(),)*
+                }
+            }
+
+            #[inline]
+            fn portal_share(&self) -> Real {
+                match self {
+                    $(Self::$light(l) => l.portal_share(),)*
                 }
             }
         }

@@ -126,4 +126,9 @@ impl Distant for Sky {
     fn total_luminance(&self) -> f64 {
         self.total_luminance
     }
+
+    #[inline]
+    fn portal_share(&self) -> Real {
+        1.0
+    }
 }

@@ -95,4 +95,9 @@ impl Distant for Sun {
     fn total_luminance(&self) -> f64 {
         self.total_luminance.to_f64()
     }
+
+    #[inline]
+    fn portal_share(&self) -> Real {
+        0.0
+    }
 }

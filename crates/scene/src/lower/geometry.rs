@@ -70,7 +70,8 @@ impl Geometry {
         }
     }
 
-    fn to_render_space(&self, object: Object) -> Object {
+    /// An object given in the world.
+    pub(super) fn to_render_space(&self, object: Object) -> Object {
         match object {
             Object::Mesh { mesh, transform } => {
                 Object::Mesh { mesh, transform: transform.then_translate(-self.origin) }

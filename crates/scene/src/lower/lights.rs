@@ -1,22 +1,24 @@
 //! Lights.
 
 use super::geometry::Geometry;
-use super::materials::MaterialTable;
+use super::lamps::{self, Shape};
+use super::materials::{MaterialTable, UvSets};
 use super::meshes::MeshTable;
-use super::{Context, environment};
+use super::{Context, environment, placement};
 use crate::codes;
 use indigo_decl::Node;
 use indigo_diag::{Diagnostic, Sink};
 use indigo_geom::{Accel, MeshBuffers, Object, TriangleMesh};
-use indigo_light::{AreaLight, DistantLight, LightTable};
+use indigo_light::{AreaLight, DistantLight, LightTable, Portals};
 use indigo_math::{Transform, Vec3d};
-use indigo_spectrum::{Spectrum, photometry, read};
 
 /// Lights found so far.
 #[derive(Default)]
 pub(super) struct Lights {
     lamps: Vec<AreaLight>,
     distant: Vec<DistantLight>,
+    /// Corners of the portals' triangles in render space, counter-clockwise seen from the interior.
+    portals: Vec<[Vec3d; 3]>,
 }
 
 impl Lights {
@@ -39,8 +41,11 @@ impl Lights {
                 node.disregard();
                 continue;
             };
-            let corners = world_corners(geometry.object(object), meshes.triangles(mesh));
-            self.add_area(node, &corners, context.sink);
+            let name = node.text("mesh_name");
+            let uv_names = meshes.get(&name.value, name.span, context).map(|m| m.uv_names.clone());
+            let shape = Shape::new(geometry.object(object), meshes.triangles(mesh));
+            let uv = UvSets::Named(uv_names.as_deref().unwrap_or_default());
+            self.lamps.push(lamps::mesh_light(node, &shape, uv, materials, context));
         }
     }
 
@@ -60,35 +65,36 @@ impl Lights {
             let placed = Object::Mesh { mesh, transform };
             geometry.refuse_far(&placed, node.real("width").max(node.real("height")) / 2.0, node.span, sink);
             let object = geometry.add(placed, [materials.black()], Some(light));
-            let corners = world_corners(geometry.object(object), meshes.triangles(mesh));
-            self.add_area(node, &corners, sink);
+            let shape = Shape::new(geometry.object(object), meshes.triangles(mesh));
+            self.lamps.push(lamps::rectangle_light(node, &shape, sink));
         }
     }
 
-    fn add_area(&mut self, node: &Node, corners: &[[Vec3d; 3]], sink: &mut Sink) {
-        let errors_before = sink.error_count();
-        let spectrum = node.node("spectrum").map_or(Spectrum::BLACK, |s| read::emission(s, sink));
-        let mut light = AreaLight::new(spectrum, corners);
-        if let Some(scale) = node.node("efficacy_scale") {
-            let (power, efficacy) = (scale.real("power_drawn"), scale.real("overall_luminous_efficacy"));
-            match photometry::with_efficacy(&light.radiance, power, efficacy, light.area()) {
-                Some(scaled) => {
-                    read::refuse_excess(&scaled, scale.span, sink);
-                    light.radiance = scaled;
-                }
-                // A spectrum that is wrong by itself needs no second complaint.
-                None if sink.error_count() > errors_before => {}
-                None => sink.push(
-                    Diagnostic::error(
-                        codes::NO_FLUX,
-                        scale.span,
-                        "a lamp without luminance or area cannot be scaled to a power",
-                    )
-                    .expected("expected a spectrum with visible light on a mesh with area"),
-                ),
-            }
+    pub(super) fn add_portals(
+        &mut self,
+        root: &Node,
+        geometry: &Geometry,
+        meshes: &mut MeshTable,
+        context: &mut Context,
+    ) {
+        let mut first = None;
+        for node in root.nodes("exit_portal") {
+            first = first.or(Some(node.span));
+            let transform = placement::transform(node, context.sink);
+            let name = node.text("mesh_name");
+            let Some(mesh) = meshes.get(&name.value, name.span, context).map(|m| m.id) else { continue };
+            let object = geometry.to_render_space(Object::Mesh { mesh, transform });
+            self.portals.extend(Shape::new(&object, meshes.triangles(mesh)).fronts());
         }
-        self.lamps.push(light);
+        let Some(span) = first.filter(|_| self.distant.is_empty()) else { return };
+        context.sink.push(
+            Diagnostic::warning(
+                codes::IDLE_PORTALS,
+                span,
+                "exit portals have no effect: there is no light outside",
+            )
+            .hint("add a <skylight>, an <env_map> or a <background>"),
+        );
     }
 
     /// The table of all lights.
@@ -97,17 +103,9 @@ impl Lights {
         let (center, size) = (bounds.center().cast::<f64>(), bounds.size().cast::<f64>());
         // The sphere is a little larger than the box's, so that rounding keeps everything inside.
         let sphere = if size.is_finite() { (center, 0.5001 * size.length()) } else { (Vec3d::ZERO, 1.0) };
-        LightTable::new(self.lamps, self.distant, geometry.lights(), sphere)
+        let portals = Portals::new(&self.portals);
+        LightTable::with_portals(self.lamps, self.distant, geometry.lights(), sphere, portals)
     }
-}
-
-/// The triangles of a mesh object in render space. Under a reflection the order of the corners is
-/// turned, so that the front stays the front.
-fn world_corners(object: &Object, mesh: &TriangleMesh) -> Vec<[Vec3d; 3]> {
-    let Object::Mesh { transform, .. } = object else { return vec![] };
-    let place = |i: u32| transform.point(Vec3d::from(mesh.positions()[i as usize].map(f64::from)));
-    let flip = transform.is_reflection();
-    mesh.triangles().iter().map(|&[a, b, c]| if flip { [a, c, b] } else { [a, b, c] }.map(place)).collect()
 }
 
 /// A horizontal rectangle round the origin whose front looks down.

@@ -76,6 +76,27 @@ impl<'a> MaterialTable<'a> {
         self.media.check_name(name, span, sink);
     }
 
+    /// The image map of a lamp whose mesh has certain uv sets; what is wrong is reported.
+    pub(super) fn lamp_texture(
+        &mut self,
+        node: &Node,
+        user: Span,
+        uv: UvSets,
+        context: &mut Context,
+    ) -> Texture {
+        let mut resources = Resources {
+            textures: &mut self.textures,
+            media: &mut self.media,
+            context,
+            uv,
+            user,
+            sets: vec![],
+            uses_textures: false,
+        };
+        let id = resources.texture(node);
+        self.textures.textures[id as usize].clone()
+    }
+
     /// A surface that scatters nothing.
     pub(super) fn black(&mut self) -> u32 {
         if let Some(id) = self.black {

@@ -7,6 +7,7 @@ mod aperture;
 mod camera;
 mod environment;
 mod geometry;
+mod lamps;
 mod lights;
 mod materials;
 mod media;
@@ -14,6 +15,7 @@ mod meshes;
 mod names;
 mod picture;
 mod placement;
+mod portal_probe;
 
 use crate::codes;
 use crate::load::LoadOptions;
@@ -96,6 +98,7 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
     lights.add_environment(root, context);
     lights.add_mesh_lights(root, &mut geometry, &mut meshes, &mut materials, context);
     lights.add_rectangles(root, &mut geometry, &mut meshes, &mut materials, context.sink);
+    lights.add_portals(root, &geometry, &mut meshes, context);
     root.visit_references(&mut |what, name, span| match what {
         "mesh" => meshes.check_name(name, span, context.sink),
         "medium" => materials.check_medium(name, span, context.sink),
@@ -134,6 +137,7 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
     };
     let camera = camera::focus(camera?, &accel).into_camera()?;
     let lights = lights.into_table(&geometry, &accel);
+    portal_probe::warn_of_openings(root, &accel, &lights, origin, context);
     let lamps: Vec<Option<u32>> = geometry.lights().collect();
     let (first_slot, slots) = geometry.into_slots();
     let (materials, textures, media) = materials.into_arenas();

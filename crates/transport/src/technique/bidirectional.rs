@@ -267,7 +267,7 @@ impl LightPath {
                     (Vertex::in_medium(world, *p, wo, flight.media), numbers.block(Block::scatter(number)))
                 }
                 Arrival::Surface(at) => {
-                    let cos = wo.dot(at.n_g);
+                    let cos = wo.dot(at.n_g).abs();
                     if cos == 0.0 {
                         break;
                     }

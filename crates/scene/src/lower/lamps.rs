@@ -1,0 +1,150 @@
+//! Lamps: what the triangles of a mesh light or of a rectangle emit.
+
+use super::Context;
+use super::materials::{MaterialTable, UvSets};
+use crate::codes;
+use indigo_decl::Node;
+use indigo_diag::{Diagnostic, Sink};
+use indigo_formats::ies;
+use indigo_geom::{Object, TriangleMesh};
+use indigo_light::{AreaLight, Profile};
+use indigo_math::{Vec2, Vec3d};
+use indigo_spectrum::{Spectrum, read};
+
+/// The triangles of a placed mesh.
+pub(super) struct Shape<'a> {
+    /// Corners in render space.
+    corners: Vec<[Vec3d; 3]>,
+    /// Whether they run clockwise seen from the front, since the mesh is mirrored.
+    is_mirrored: bool,
+    /// Where the mesh's x axis points.
+    x_axis: Vec3d,
+    mesh: &'a TriangleMesh,
+}
+
+impl<'a> Shape<'a> {
+    pub(super) fn new(object: &Object, mesh: &'a TriangleMesh) -> Self {
+        let Object::Mesh { transform, .. } = object else {
+            return Self { corners: vec![], is_mirrored: false, x_axis: Vec3d::new(1.0, 0.0, 0.0), mesh };
+        };
+        let place = |i: u32| transform.point(Vec3d::from(mesh.positions()[i as usize].map(f64::from)));
+        Self {
+            corners: mesh.triangles().iter().map(|t| t.map(place)).collect(),
+            is_mirrored: transform.is_reflection(),
+            x_axis: transform.vector(Vec3d::new(1.0, 0.0, 0.0)),
+            mesh,
+        }
+    }
+
+    /// Corners of the triangles, counter-clockwise seen from the front.
+    pub(super) fn fronts(&self) -> impl Iterator<Item = [Vec3d; 3]> + '_ {
+        self.corners.iter().map(|&[a, b, c]| if self.is_mirrored { [a, c, b] } else { [a, b, c] })
+    }
+
+    fn light(&self, radiance: Spectrum) -> AreaLight {
+        let light = AreaLight::new(radiance, &self.corners);
+        if self.is_mirrored { light.turned_over() } else { light }
+    }
+}
+
+/// A `rectanglelight`.
+pub(super) fn rectangle_light(node: &Node, shape: &Shape, sink: &mut Sink) -> AreaLight {
+    let errors_before = sink.error_count();
+    let spectrum = node.node("spectrum").map_or(Spectrum::BLACK, |s| read::emission(s, sink));
+    scaled(node, shape.light(spectrum), errors_before, sink)
+}
+
+/// A `meshlight`, whose mesh has certain uv sets.
+pub(super) fn mesh_light(
+    node: &Node,
+    shape: &Shape,
+    uv: UvSets,
+    materials: &mut MaterialTable,
+    context: &mut Context,
+) -> AreaLight {
+    let errors_before = context.sink.error_count();
+    let spectrum = node.node("spectrum").map_or(Spectrum::BLACK, |s| read::emission(s, context.sink));
+    let mut lamp = shape.light(spectrum);
+    if let Some(texture) = node.node("texture") {
+        let texture = materials.lamp_texture(texture, node.span, uv, context);
+        // A set that is missing has been reported.
+        if let Some(uvs) = shape.mesh.uv_sets().get(texture.uv_set as usize) {
+            let corner = |i: u32| Vec2::from(uvs[i as usize].map(f64::from));
+            let uvs: Vec<[Vec2<f64>; 3]> = shape.mesh.triangles().iter().map(|t| t.map(corner)).collect();
+            lamp = lamp.with_texture(texture, &uvs);
+        }
+    }
+    match node.node("ies_profile") {
+        Some(profile) => with_profile(node, profile, lamp, shape.x_axis, errors_before, context),
+        None => scaled(node, lamp, errors_before, context.sink),
+    }
+}
+
+/// The lamp with the flux that its `efficacy_scale` asks for.
+fn scaled(node: &Node, lamp: AreaLight, errors_before: usize, sink: &mut Sink) -> AreaLight {
+    let Some(scale) = node.node("efficacy_scale") else { return lamp };
+    let flux = scale.real("power_drawn") * scale.real("overall_luminous_efficacy");
+    if let Some(scaled) = lamp.clone().with_flux(flux) {
+        read::refuse_excess(scaled.radiance(), scale.span, sink);
+        return scaled;
+    }
+    // What is wrong by itself needs no second complaint.
+    if sink.error_count() == errors_before {
+        sink.push(no_flux(scale, "a lamp without luminance or area cannot be scaled to a power"));
+    }
+    lamp
+}
+
+/// The lamp with the directions and the flux of a file.
+fn with_profile(
+    node: &Node,
+    profile: &Node,
+    lamp: AreaLight,
+    x_axis: Vec3d,
+    errors_before: usize,
+    context: &mut Context,
+) -> AreaLight {
+    if let Some(scale) = node.node("efficacy_scale") {
+        scale.disregard();
+        context.sink.push(
+            Diagnostic::warning(
+                codes::FLUX_TWICE,
+                scale.span,
+                "<efficacy_scale> has no effect beside <ies_profile>: the flux is that of the file",
+            )
+            .hint("take one of them out"),
+        );
+    }
+    let Some(photometry) = read_profile(profile, context) else { return lamp };
+    lamp.clone().with_profile(photometry, x_axis).unwrap_or_else(|| {
+        if context.sink.error_count() == errors_before {
+            let message = "a lamp without luminance or area cannot be scaled to the flux of a file";
+            context.sink.push(no_flux(profile, message));
+        }
+        lamp
+    })
+}
+
+fn read_profile(node: &Node, context: &mut Context) -> Option<Profile> {
+    let path = node.text("path");
+    let file = context.read(&path.value, path.span)?;
+    match ies::decode(&file.bytes) {
+        Ok(p) => Some(Profile::new(&p.vertical_deg, &p.horizontal_deg, &p.candela)),
+        Err(error) => {
+            context.sink.push(
+                Diagnostic::error(
+                    codes::BAD_FILE,
+                    path.span,
+                    format!("{}:{}: bad photometric file", file.path, error.position),
+                )
+                .expected(format!("expected {}, found {}", error.expected, error.found)),
+            );
+            None
+        }
+    }
+}
+
+fn no_flux(node: &Node, message: &str) -> Diagnostic {
+    Diagnostic::error(codes::NO_FLUX, node.span, message)
+        .expected("expected a spectrum with visible light on a mesh with area")
+}
