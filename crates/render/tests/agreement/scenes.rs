@@ -1,5 +1,9 @@
 //! Scenes for the grid: small, each with something that one mode could get wrong.
 
+mod lights;
+
+pub use lights::*;
+
 use super::SIDE;
 use super::common::scene;
 use super::common::shapes::{Mesh, add, mesh_light, model};

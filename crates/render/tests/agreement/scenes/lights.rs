@@ -1,0 +1,99 @@
+//! Every kind of light that is not the same everywhere or in all directions.
+
+use super::super::common::scene_with;
+use super::{background, block, build, common, model, room, scene_file, uniform, view, wall};
+use indigo_scene::Scene;
+
+/// A room that is lit from the camera's side and, if `roofless`, from above.
+fn open_room(is_roofless: bool) -> Vec<String> {
+    let mut parts = room(["white"; 4]);
+    if is_roofless {
+        // A smaller ceiling leaves a gap all round.
+        parts.retain(|p| !p.contains("ceiling"));
+        parts.extend([wall([0.0, 0.0, -1.0], 1.0, 0.6).text("ceiling", "white"), model("ceiling")]);
+    }
+    parts
+}
+
+fn skylight(sundir: &str) -> Vec<String> {
+    vec![format!("<skylight><sundir>{sundir}</sundir><turbidity>3</turbidity></skylight>")]
+}
+
+pub fn sun_and_sky() -> Scene {
+    build(&[common(view()), open_room(false), block("grey"), skylight("0.3 -1 0.7")])
+}
+
+/// An angular map of 8 by 8 texels with a bright one behind the camera, and a background that adds to it.
+pub fn environment_map() -> Scene {
+    let texel = |i: usize| match i {
+        // At the rim, where -y is.
+        20 => [3e5, 1e5, 2e4],
+        _ => [1e3 * (i % 8) as f32, 2e3, 8e2 * (i / 8) as f32],
+    };
+    let bytes = (0..64).flat_map(texel).flat_map(f32::to_le_bytes).collect();
+    let map =
+        "<env_map><spherical><path>map.float</path><width>8</width><gain>2</gain></spherical></env_map>";
+    let parts =
+        [common(view()), open_room(true), block("white"), vec![map.to_owned(), background(&uniform(5e2))]];
+    scene_with(&scene_file(&parts.concat()), [("map.float", bytes)])
+}
+
+/// A square lamp under the ceiling with texture coordinates.
+fn square_lamp(more: &str) -> Vec<String> {
+    let corner = |x: i32, y: i32| {
+        let at = |v: i32| 0.4 * f64::from(v);
+        let uv = |v: i32| f64::from((v + 1) / 2);
+        format!("<vertex pos=\"{} {} 0.95\" uv0=\"{} {}\"/>", at(x), at(y), uv(x), uv(y))
+    };
+    let vertices: String = [(-1, -1), (-1, 1), (1, 1), (1, -1)].map(|(x, y)| corner(x, y)).concat();
+    let set = "<expose_uv_set><index>0</index><name>default</name></expose_uv_set>";
+    let triangles = "<tri>0 1 2</tri><tri>0 2 3</tri>";
+    vec![
+        format!(
+            "<mesh><name>lamp</name><normal_smoothing>false</normal_smoothing><embedded>{set}{vertices}<triangle_set>\
+             <material_name>black</material_name>{triangles}</triangle_set></embedded></mesh>"
+        ),
+        format!(
+            "<meshlight><pos>0 0 0</pos><scale>1</scale><mesh_name>lamp</mesh_name><spectrum>{}</spectrum>{more}</meshlight>",
+            uniform(1e5)
+        ),
+    ]
+}
+
+/// Intensity that depends on both angles, down to none along the ceiling.
+pub fn photometric_lamp() -> Scene {
+    let lamp = square_lamp("<ies_profile><path>lamp.ies</path></ies_profile>");
+    let file = include_bytes!("../../../../../testscenes/ies/quadrant_bat.ies");
+    let parts = [common(view()), room(["white"; 4]), block("grey"), lamp];
+    scene_with(&scene_file(&parts.concat()), [("lamp.ies", file.to_vec())])
+}
+
+/// A lamp with a picture of two by two texels, one of them bright.
+pub fn textured_lamp() -> Scene {
+    let lamp = square_lamp("<texture><path>lamp.float.bmp</path><exponent>1</exponent><b>3</b></texture>");
+    let mut picture = b"BM".to_vec();
+    for word in [70_u32, 0, 54, 40, 2, 2] {
+        picture.extend(word.to_le_bytes());
+    }
+    picture.extend([1, 0, 24, 0]);
+    for word in [0_u32, 16, 0, 0, 0, 0] {
+        picture.extend(word.to_le_bytes());
+    }
+    picture.extend([0, 0, 0, 255, 120, 40, 0, 0, 20, 20, 200, 0, 0, 0, 0, 0]);
+    let parts = [common(view()), room(["white"; 4]), block("white"), lamp];
+    scene_with(&scene_file(&parts.concat()), [("lamp.float.bmp", picture)])
+}
+
+/// A room that light enters from the front and through a gap round its ceiling, by a portal over each.
+pub fn portal_lit_room() -> Scene {
+    let portal = |name: &str| {
+        format!("<exit_portal><pos>0 0 0</pos><scale>1</scale><mesh_name>{name}</mesh_name></exit_portal>")
+    };
+    let portals = vec![
+        wall([0.0, 1.0, 0.0], 1.0, 1.0).text("front", "white"),
+        wall([0.0, 0.0, -1.0], 1.0, 1.0).text("gap", "white"),
+        portal("front"),
+        portal("gap"),
+    ];
+    build(&[common(view()), open_room(true), block("white"), skylight("-0.4 -0.6 1"), portals])
+}
