@@ -1,8 +1,9 @@
-//! `cargo xtask gen`: files that are written from the scene's declarations.
+//! `cargo xtask gen`: files that are written from the scene's declarations and from tables.
 
 use std::path::Path;
 
 use crate::Outcome;
+use crate::media_library;
 use crate::process::{self, capture, cargo};
 
 /// A generated file and the example program that prints it.
@@ -24,17 +25,23 @@ pub fn run(arguments: &[String]) -> Outcome {
         [flag] if flag == "--check" => true,
         _ => return Err("usage: cargo xtask gen [--check]".into()),
     };
-    let mut stale = Vec::new();
+    let mut files = Vec::new();
     for file in GENERATED {
         let text = capture(&mut cargo(&["run", "-q", "-p", file.package, "--example", file.example]))?;
-        let path = process::root().join(file.path);
+        files.push((file.path.to_owned(), text));
+    }
+    files.extend(media_library::files().into_iter().map(|(path, text)| (path, text.into_bytes())));
+    let mut stale = Vec::new();
+    for (name, text) in files {
+        let path = process::root().join(&name);
         if up_to_date(&path, &text) {
-            println!("{} is up to date", file.path);
-        } else if check {
-            stale.push(file.path);
+            continue;
+        }
+        if check {
+            stale.push(name);
         } else {
             write(&path, &text)?;
-            println!("{} written", file.path);
+            println!("{name} written");
         }
     }
     if stale.is_empty() { Ok(()) } else { Err(format!("stale: {}; run `cargo xtask gen`", stale.join(", "))) }

@@ -8,6 +8,7 @@ mod bench_rays;
 mod documents;
 mod fuzz;
 mod generate;
+mod media_library;
 mod process;
 mod scenes;
 mod stages;
@@ -50,7 +51,7 @@ const COMMANDS: &[Command] = &[
     Command {
         name: "gen",
         arguments: "[--check]",
-        about: "write what is generated from the declarations, or check that it is up to date",
+        about: "write what is generated from declarations and tables, or check that it is up to date",
         run: generate::run,
     },
     Command {

@@ -1,0 +1,102 @@
+//! The files of `media/`: liquids, glasses and other dielectrics to be included by scenes, one file each,
+//! written from the tables in `crates/xtask/data`.
+
+use std::fmt::Write;
+
+const LIQUIDS: &str = include_str!("../data/liquids.csv");
+const DIELECTRICS: &str = include_str!("../data/dielectrics.csv");
+
+/// The index of refraction of liquids, which the measurements do not give: water's at the sodium line.
+const LIQUID_IOR: &str = "1.333";
+/// A liquid may reach into its glass, which displaces it.
+const LIQUID_PRECEDENCE: u32 = 10;
+const SOLID_PRECEDENCE: u32 = 20;
+
+/// Paths in the repository and contents of all files.
+pub fn files() -> Vec<(String, String)> {
+    let liquids = rows(LIQUIDS).map(|row| liquid(&row));
+    let dielectrics = rows(DIELECTRICS).map(|row| dielectric(&row));
+    liquids
+        .chain(dielectrics)
+        .map(|(name, medium)| (format!("media/{name}.igs"), format!("<scene>\n{medium}</scene>\n")))
+        .collect()
+}
+
+/// The rows of a table after its remarks and its head.
+fn rows(table: &'static str) -> impl Iterator<Item = Vec<&'static str>> {
+    table.lines().filter(|l| !l.starts_with('#')).skip(1).map(|l| l.split(',').collect())
+}
+
+fn liquid(row: &[&str]) -> (String, String) {
+    let name = identifier(row[0]);
+    let triple = |at: usize| {
+        let [r, g, b] = [row[at], row[at + 1], row[at + 2]];
+        format!("<rgb><rgb>{r} {g} {b}</rgb><gamma>1</gamma></rgb>")
+    };
+    let basic = format!(
+        "            <ior>{LIQUID_IOR}</ior>
+            <absorption_coefficient_spectrum>{}</absorption_coefficient_spectrum>
+            <subsurface_scattering>
+                <scattering_coefficient_spectrum>{}</scattering_coefficient_spectrum>
+                <phase_function>
+                    <henyey_greenstein><g_spectrum>{}</g_spectrum></henyey_greenstein>
+                </phase_function>
+            </subsurface_scattering>
+",
+        triple(1),
+        triple(4),
+        triple(7)
+    );
+    let source = "Narasimhan et al. 2006, Acquiring Scattering Properties of Participating Media by Dilution";
+    let text = medium(&name, LIQUID_PRECEDENCE, &format!("{}: {source}", row[0]), &basic);
+    (name, text)
+}
+
+fn dielectric(row: &[&str]) -> (String, String) {
+    let [name, a, b, what] = [row[0], row[1], row[2], row[3]];
+    let is_liquid = ["water", "ethanol"].contains(&name);
+    let precedence = if is_liquid { LIQUID_PRECEDENCE } else { SOLID_PRECEDENCE };
+    let basic = format!("            <ior>{a}</ior>\n            <cauchy_b_coeff>{b}</cauchy_b_coeff>\n");
+    (name.to_owned(), medium(name, precedence, what, &basic))
+}
+
+fn medium(name: &str, precedence: u32, remark: &str, basic: &str) -> String {
+    let mut text = String::new();
+    let _ = write!(
+        text,
+        "    <!-- {} -->
+    <medium>
+        <name>{name}</name>
+        <precedence>{precedence}</precedence>
+        <basic>
+{basic}        </basic>
+    </medium>
+",
+        remark.replace('&', "and")
+    );
+    text
+}
+
+/// A name as a file and a scene can carry it: "Milk (lowfat)" is `milk_lowfat`.
+fn identifier(name: &str) -> String {
+    let kept = name.to_lowercase().replace('&', "and");
+    let words = kept.split(|c: char| !c.is_ascii_alphanumeric()).filter(|w| !w.is_empty());
+    words.collect::<Vec<_>>().join("_")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_row_has_a_file_of_its_own() {
+        let files = files();
+        let mut names: Vec<&str> = files.iter().map(|(path, _)| path.as_str()).collect();
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), 55);
+        assert_eq!(identifier("Mission Bay 10ft Deep (30 min)"), "mission_bay_10ft_deep_30_min");
+        let (_, milk) = files.iter().find(|(path, _)| path == "media/milk_regular.igs").expect("milk");
+        assert!(milk.contains("18205.267 20382.6 22369.8"), "{milk}");
+    }
+}
