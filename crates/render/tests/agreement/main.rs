@@ -125,4 +125,13 @@ grid! {
     coloured_walls_and_lamps,
     invisible_surfaces,
     single_scattering_only,
+    glass_ball_with_caustic,
+    mirror_seen_through_glass,
+    coloured_absorbing_medium,
+    scattering_medium,
+    scattering_glass,
+    camera_inside_a_medium,
+    lamp_inside_a_medium,
+    dispersive_prism,
+    nested_glass_and_liquid,
 }

@@ -1,8 +1,10 @@
 //! Scenes for the grid: small, each with something that one mode could get wrong.
 
 mod lights;
+mod media;
 
 pub use lights::*;
+pub use media::*;
 
 use super::SIDE;
 use super::common::scene;

@@ -1,12 +1,14 @@
 //! What light does in media and at their surfaces, against closed forms.
 
-use super::common::judge::{NITS_PER_UNIFORM, assert_is};
+use super::common::judge::{NITS_PER_UNIFORM, assert_is, assert_near};
 use super::common::shapes::{Mesh, model};
 use super::common::text::{
-    background, basic, flat_camera, medium, scene_file, settings, specular, sphere, uniform,
+    background, basic, flat_camera, henyey_greenstein, medium, scattering, scene_file, settings, specular,
+    sphere, uniform,
 };
-use super::common::{Measured, measure, scene};
-use indigo_scene::Scene;
+use super::common::{Measured, film, measure, scene};
+use indigo_scene::{MetropolisSettings, Scene};
+use indigo_testkit::stats::Moments;
 
 /// Spectral radiance of the surroundings, W m^-3 sr^-1.
 const AROUND: f64 = 3.0e4;
@@ -143,4 +145,107 @@ fn layers(stack: &[(f64, f64)]) -> f64 {
         mirrored = r + (1.0 - r) * (1.0 - r) * mirror / (1.0 - r * mirror);
     }
     shown + mirrored
+}
+
+/// A medium of given coefficients (1/m) and mean cosine.
+fn scatters(ior: f64, absorption: f64, coefficient: f64, g: f64) -> String {
+    let phase = scattering(&uniform(coefficient), &henyey_greenstein(g));
+    medium("m", 10, &basic(ior, &uniform(absorption), &phase)) + &specular("surface", "m")
+}
+
+/// Techniques and drivers, with how many samples a pixel takes for the same accuracy.
+const MODES: [(&str, bool, bool, u64); 4] = [
+    ("path", false, false, 96),
+    ("bidirectional", true, false, 96),
+    ("path, Metropolis", false, true, 128),
+    ("bidirectional, Metropolis", true, true, 128),
+];
+
+/// Mean luminances of developed pictures in a mode.
+fn luminance_in_mode(scene: &mut Scene, bidirectional: bool, metropolis: bool, passes: u64) -> Moments {
+    scene.transport.bidirectional = bidirectional;
+    scene.transport.metropolis = metropolis.then_some(MetropolisSettings {
+        large_mutation_prob: 0.5,
+        max_change: 0.02,
+        max_consecutive_rejections: i64::MAX,
+    });
+    Moments::of((0..16).map(|seed| {
+        let picture = film(scene, 7000 + seed, passes).develop();
+        picture.pixels.iter().map(|p| f64::from(p[1])).sum::<f64>() / picture.pixels.len() as f64
+    }))
+}
+
+/// Whatever scatters without absorbing cannot be seen in even light: by every technique and driver.
+#[test]
+fn a_scattering_ball_in_even_light_is_invisible() {
+    for (what, ior) in [("fog", 1.0), ("glass", 1.3)] {
+        let parts = [scatters(ior, 0.0, 1.5, 0.5), sphere([0.0; 3], 0.5, "surface")];
+        let mut scene = in_uniform_light([0.0, -5.0, 0.0], 0.05, &parts);
+        for (mode, bidirectional, metropolis, passes) in MODES {
+            let measured = luminance_in_mode(&mut scene, bidirectional, metropolis, passes);
+            assert_is(&format!("{what}, {mode}"), &measured, AROUND * NITS_PER_UNIFORM, 4e-3);
+        }
+    }
+}
+
+/// Light scattered once in a ball of fog, seen along its diameter, by quadrature over the way and over all
+/// directions, each of which leaves the ball after a way of its own.
+#[test]
+fn single_scattering_has_its_closed_form() {
+    let (absorption, coefficient, g, radius) = (0.4, 1.1, 0.6, 0.5);
+    let parts = [scatters(1.0, absorption, coefficient, g), sphere([0.0; 3], radius, "surface")];
+    let mut scene = in_uniform_light([0.0, -5.0, 0.0], 1e-3, &parts);
+    scene.transport.max_depth = 1;
+    let extinction = absorption + coefficient;
+    // At x along the diameter, light that goes on at cosine mu to the view comes from a way s through the ball.
+    let scattered = |x: f64| {
+        let lit = |mu: f64| {
+            let s = -x * mu + (radius * radius - x * x * (1.0 - mu * mu)).sqrt();
+            let phase = 0.5 * (1.0 - g * g) / (1.0 + g * g - 2.0 * g * mu).powf(1.5);
+            phase * (-extinction * s).exp()
+        };
+        coefficient * (-extinction * (x + radius)).exp() * integral(-1.0, 1.0, lit)
+    };
+    let expected = (-2.0 * extinction * radius).exp() + integral(-radius, radius, scattered);
+    for (mode, bidirectional, metropolis, passes) in MODES {
+        let measured = luminance_in_mode(&mut scene, bidirectional, metropolis, passes);
+        assert_is(mode, &measured, AROUND * NITS_PER_UNIFORM * expected, 6e-3);
+    }
+}
+
+/// Simpson's rule.
+fn integral(a: f64, b: f64, f: impl Fn(f64) -> f64) -> f64 {
+    let n = 400;
+    let h = (b - a) / f64::from(n);
+    let weight = |i: i32| if i == 0 || i == n { 1.0 } else { f64::from(2 + 2 * (i % 2)) };
+    (0..=n).map(|i| weight(i) * f(a + f64::from(i) * h)).sum::<f64>() * h / 3.0
+}
+
+/// The reference's ball of fog with all orders of scattering, rendered by another program to 1e-3.
+#[test]
+fn a_ball_of_fog_is_as_bright_as_another_program_has_it() {
+    let parts = [scatters(1.0, 0.5, 2.0, 0.6), sphere([0.0; 3], 1.0, "surface")];
+    // The middle eighth of a field of 20 degrees.
+    let mut scene = in_uniform_light([0.0, -5.0, 0.0], 10f64.to_radians().tan() / 8.0, &parts);
+    let measured = luminance_in_mode(&mut scene, false, false, 256);
+    assert_near("middle", &measured, AROUND * NITS_PER_UNIFORM * 0.432_291, 4e-3);
+}
+
+/// A half-space of isotropic scattering: by reciprocity, seen under even light it shows its plane albedo
+/// (Chandrasekhar 1950, "Radiative Transfer", section 38; H functions by iteration). Forty mean free paths stand
+/// for infinity: e^-40 of the light gets through.
+#[test]
+fn a_half_space_shows_its_plane_albedo() {
+    let albedo = 0.9;
+    let phase = scattering(&uniform(albedo * 100.0), "<uniform/>");
+    let slab = Mesh::cube(1.0).placed([20.0, 0.0, 0.0, 0.0, 0.2, 0.0, 0.0, 0.0, 20.0], 1.0, [0.0, 0.2, 0.0]);
+    let parts = [
+        medium("m", 10, &basic(1.0, &uniform((1.0 - albedo) * 100.0), &phase)),
+        specular("surface", "m"),
+        slab.text("slab", "surface"),
+        model("slab"),
+    ];
+    let mut scene = in_uniform_light([0.0, -1.0, 0.0], 1e-3, &parts);
+    let measured = luminance_in_mode(&mut scene, false, false, 256);
+    assert_is("along the normal", &measured, AROUND * NITS_PER_UNIFORM * 0.414_947_5, 5e-3);
 }

@@ -137,3 +137,55 @@ impl Scatter for SpecularLeaf {
         false
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::media::Cauchy;
+    use indigo_spectrum::{LANES, SampledWavelengths};
+
+    fn wavelengths(hero_nm: Real) -> SampledWavelengths {
+        let mut lambda = SampledWavelengths::sample(0.3);
+        lambda.lambda[0] = hero_nm;
+        lambda
+    }
+
+    /// The least deviation of a prism of 60 degrees, where light passes it symmetrically: 2 asin(n / 2) - 60.
+    #[test]
+    fn a_prism_deviates_each_wavelength_by_its_own_index() {
+        let glass = Cauchy { a: 1.5, b: 0.01 };
+        for (nm, index) in [(400.0, 1.5625), (550.0, 1.533_058), (700.0, 1.520_408)] {
+            let leaf = SpecularLeaf { eta: glass.eval(&wavelengths(nm)), is_transparent: true };
+            let incidence = (index / 2.0f64).asin();
+            let wo = Vec3::new(incidence.sin() as Real, 0.0, incidence.cos() as Real);
+            let drawn = leaf.sample(wo, [0.5, 0.5, 0.999]).expect("light");
+            assert_eq!(drawn.crossing, Crossing::Down);
+            // Inside it goes at 30 degrees to the normal, as half the prism's angle demands.
+            let inside = (-drawn.wi.x as f64).atan2(-drawn.wi.z as f64);
+            assert!((inside.to_degrees() - 30.0).abs() < 1e-4, "{nm}: {}", inside.to_degrees());
+            let delta = drawn.delta.expect("an event of delta kind");
+            for lane in 1..LANES {
+                assert_eq!((delta.probability[lane], delta.factor[lane]), (0.0, 0.0));
+            }
+        }
+    }
+
+    #[test]
+    fn reflection_keeps_every_lane_and_needs_no_transparency() {
+        let eta = Cauchy { a: 1.5, b: 0.01 }.eval(&wavelengths(400.0));
+        let wo = Vec3::new(0.6, 0.0, 0.8);
+        for is_transparent in [true, false] {
+            let drawn = SpecularLeaf { eta, is_transparent }.sample(wo, [0.5, 0.5, 0.0]).expect("light");
+            let delta = drawn.delta.expect("an event of delta kind");
+            assert_eq!(drawn.wi, Vec3::new(-0.6, 0.0, 0.8));
+            for lane in 0..LANES {
+                let reflectance = dielectric(0.8, eta[lane]).reflectance;
+                assert_eq!(delta.factor[lane], reflectance);
+                assert_eq!(delta.probability[lane], if is_transparent { reflectance } else { 1.0 });
+            }
+        }
+        let opaque = SpecularLeaf { eta, is_transparent: false };
+        let drawn = opaque.sample(wo, [0.5, 0.5, 0.999]).expect("light");
+        assert_eq!(drawn.crossing, Crossing::Reflect);
+    }
+}

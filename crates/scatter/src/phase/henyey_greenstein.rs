@@ -58,10 +58,12 @@ pub struct HenyeyGreensteinLobe {
 impl Phase for HenyeyGreensteinLobe {
     #[inline]
     fn pdf(&self, wo: Vec3, wi: Vec3) -> LanePdf {
-        let cos = -wo.dot(wi);
+        // 1 + g² - 2 g cos θ from the half angle to the side on which it is small: near the peak the cosine itself
+        // has no digits left.
+        let (ahead, back) = ((wo + wi).length2(), (wo - wi).length2());
         LanePdf(self.g.0.map(|g| {
-            // With |g| at most 0.99 this is at least (1 - |g|)² but for rounding.
-            let q = (1.0 + g * g - 2.0 * g * cos).max((1.0 - g.abs()) * (1.0 - g.abs()));
+            let q =
+                if g >= 0.0 { (1.0 - g) * (1.0 - g) + g * ahead } else { (1.0 + g) * (1.0 + g) - g * back };
             (0.25 * INV_PI) * (1.0 - g * g) / (q * q.sqrt())
         }))
     }
