@@ -120,7 +120,6 @@ impl LightPath {
         }
         let cos = emission.point.map_or(1.0, |p| emission.direction.dot(p.n));
         let mut step = Step::from_light(emission.pdf.first, emission.pdf.second, cos);
-        let mut from = emission.origin;
         let mut flight = leave_lamp(world, &emission);
         let (mut events, mut number) = (0, 0);
         loop {
@@ -151,11 +150,10 @@ impl LightPath {
             }
             events += 1;
             let is_first = events == 1;
-            let p = vertex.point.p;
             let mut prefix = if is_first && emission.point.is_none() {
                 step.arrive_from_environment(reach, free)
             } else {
-                step.arrive((p - from).length2(), reach, free)
+                step.arrive(flight.length() * flight.length(), reach, free)
             };
             if is_first {
                 let drawn = scene.lights.pdf_sample_of(&emission, &vertex.receiver());
@@ -187,7 +185,6 @@ impl LightPath {
                 return;
             }
             step = go_on(&prefix, &next, &vertex);
-            from = p;
             flight = vertex.leave(world, next.wi);
             number += 1;
         }
@@ -297,7 +294,8 @@ impl LightPath {
             if depth == events.most {
                 break;
             }
-            let prefix = step.arrive((vertex.point.p - from.p).length2(), vertex.reach(wo), free);
+            let length = flight.length();
+            let prefix = step.arrive(length * length, vertex.reach(wo), free);
             beta = arrived;
             if let Some(collision) = vertex.collision() {
                 beta = beta.times(collision);

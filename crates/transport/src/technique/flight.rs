@@ -13,7 +13,8 @@ pub(super) struct Flight {
     pub media: MediumStack,
     /// What it has passed since it left its vertex.
     pub passage: Passage,
-    /// Where on the ray that was.
+    /// Where on the ray its vertex lies, and how far it has come.
+    start: Real,
     passed: Real,
 }
 
@@ -31,7 +32,15 @@ impl Flight {
     /// From a point that the ray leaves a little way off: what it passes counts from the point itself.
     #[inline]
     pub fn new(from: Vec3, ray: Ray, media: MediumStack) -> Self {
-        Self { ray, media, passage: Passage::CLEAR, passed: (from - ray.o).dot(ray.d) }
+        let start = (from - ray.o).dot(ray.d);
+        Self { ray, media, passage: Passage::CLEAR, start, passed: start }
+    }
+
+    /// How far it has come from its vertex, metres. In dense media that may be less than the rounding of the
+    /// points themselves.
+    #[inline]
+    pub fn length(&self) -> Real {
+        self.passed - self.start
     }
 
     /// Goes on to whatever comes first. `u` in [0, 1) is asked for where the medium scatters.

@@ -53,8 +53,10 @@ pub(super) struct Prefix {
     pub before: LanePdf,
     /// 1 / the hero's density of vertex k.
     inverse_pdf: Real,
-    /// Strategies that end before k − 1, over this one, but for the density with which k would find
-    /// k − 1 from the other side (1/sr).
+    /// The density with which k would find k − 1, but for that of its direction (1/sr), over the hero's of k. The
+    /// distance between them cancels: it may be so small that its powers leave the scalar's range.
+    returns: LanePdf,
+    /// Strategies that end before k − 1, over this one.
     others: LanePdf,
     /// Whether the path went on from k − 1 by a direction that can be given.
     is_previous_connectable: bool,
@@ -100,29 +102,32 @@ impl Step {
     /// unscattered with the probabilities `free`.
     #[inline]
     pub fn arrive(&self, distance2: Real, reach: LanePdf, free: LanePdf) -> Prefix {
-        self.prefix(reach * free / distance2, self.reach * free / distance2)
+        self.prefix(distance2, reach * free, self.reach * free)
     }
 
     /// The next vertex is a direction of the environment.
     #[inline]
     pub fn arrive_at_environment(&self, free: LanePdf) -> Prefix {
-        self.prefix(free, self.reach * free)
+        self.prefix(1.0, free, self.reach * free)
     }
 
     /// The next vertex is met by light of the environment.
     #[inline]
     pub fn arrive_from_environment(&self, reach: LanePdf, free: LanePdf) -> Prefix {
-        self.prefix(reach * free, free)
+        self.prefix(1.0, reach * free, free)
     }
 
-    /// Factors of the densities with which the next vertex is found from here, and this one from there.
+    /// Factors of the densities with which the next vertex is found from here, and this one from there, both
+    /// over the squared distance.
     #[inline]
-    fn prefix(&self, there: LanePdf, back: LanePdf) -> Prefix {
+    fn prefix(&self, distance2: Real, there: LanePdf, back: LanePdf) -> Prefix {
+        let inverse = 1.0 / (self.pdf * there.hero());
         Prefix {
             ratio: self.ratio * there.ratio_to_hero(),
             before: self.before,
-            inverse_pdf: 1.0 / (self.pdf * there.hero()),
-            others: self.others * m(back),
+            inverse_pdf: distance2 * inverse,
+            returns: back * inverse,
+            others: self.others,
             is_previous_connectable: self.is_connectable,
         }
     }
@@ -133,15 +138,15 @@ impl Prefix {
     #[inline]
     pub fn step(&self, drawn: &Scattered, reach: LanePdf) -> Step {
         let is_connectable = !drawn.is_delta;
-        let mut others = m(drawn.pdf_rev) * self.others;
+        let mut others = m(drawn.pdf_rev * self.returns) * self.others;
         if is_connectable && self.is_previous_connectable {
-            others += m(self.before);
+            others += m(self.before * self.inverse_pdf);
         }
         Step {
             ratio: self.ratio * drawn.pdf.ratio_to_hero(),
             before: self.ratio,
             pdf: drawn.pdf.hero(),
-            others: others * m1(self.inverse_pdf),
+            others,
             reach,
             is_connectable,
         }
@@ -152,16 +157,20 @@ impl Prefix {
     /// (1/sr) that with which this vertex then finds the one before.
     #[inline]
     pub fn others(&self, found: LanePdf, found_previous: LanePdf) -> LanePdf {
-        let joined = if self.is_previous_connectable { m(self.before) } else { LanePdf::ZERO };
-        m(found * self.inverse_pdf) * (joined + m(found_previous) * self.others)
+        self.joined(found) + m(found * (found_previous * self.returns)) * self.others
     }
 
     /// The same for a camera path that ends on a light, which light sampling finds with density
     /// `drawn`, and light paths with `first` and then `second` ([`EmissionPdf`](indigo_light::EmissionPdf)).
     #[inline]
     pub fn others_at_light(&self, drawn: Real, first: Real, second: Real) -> LanePdf {
-        let joined = if self.is_previous_connectable { m(self.before) * m1(drawn) } else { LanePdf::ZERO };
-        (joined + self.others * m1(second * first)) * m1(self.inverse_pdf)
+        self.joined(LanePdf::splat(drawn)) + m(self.returns * (second * first)) * self.others
+    }
+
+    /// The strategy that joins vertex k − 1 to this one, which it finds with density `found`.
+    #[inline]
+    fn joined(&self, found: LanePdf) -> LanePdf {
+        if self.is_previous_connectable { m(self.before * (found * self.inverse_pdf)) } else { LanePdf::ZERO }
     }
 }
 
