@@ -1,0 +1,194 @@
+//! Bidirectional path tracing (Lafortune & Willems 1993; Veach & Guibas 1994).
+//!
+//! A light path y_0 y_1 … begins at a lamp, a camera path x_0 x_1 … at the lens. Strategy (s, t) joins s
+//! vertices of the one and t of the other:
+//!
+//! - (0, t): the camera's path meets a light by itself;
+//! - (1, t): light is drawn towards a vertex of the camera's path, anew for each;
+//! - (s, t): a vertex of each is joined to one of the other;
+//! - (s, 1): a vertex of the light's path is joined to the lens and falls anywhere on the film.
+//!
+//! The lens is no surface that light could meet by chance, so there is no t = 0. What shines straight
+//! into the lens is left to (0, 2). Weights are those of [`mis`](super::mis).
+
+mod joints;
+mod light_path;
+
+use super::flight::{Arrival, Flight};
+use super::media::{MediaMemory, World};
+use super::mis::{Prefix, Step};
+use super::surface::{Surface, emitter_hit, shade};
+use super::vertex::Vertex;
+use super::{Events, PathSample, Record, Splat};
+use crate::sampler::{Block, PrimarySample};
+use indigo_camera::CameraRay;
+use indigo_geom::Ray;
+use indigo_light::Receiver;
+use indigo_math::Real;
+use indigo_scatter::{Mode, Scattered};
+use indigo_scene::Scene;
+use indigo_spectrum::{LanePdf, SampledSpectrum, SampledWavelengths};
+use joints::{draw_light, found, join};
+use light_path::LightPath;
+
+/// Vertices before roulette sets in: short paths carry most of the light.
+const ROULETTE_FROM: u32 = 3;
+
+/// Bidirectional path tracing, with the memory that it needs.
+#[derive(Clone, Debug)]
+pub struct Bidirectional {
+    media: MediaMemory,
+    light_path: LightPath,
+}
+
+/// What does not change along a sample.
+struct Sample<'a> {
+    world: World<'a>,
+    camera: &'a CameraRay,
+    events: Events,
+}
+
+/// A vertex of the camera's path.
+struct CameraVertex<'a> {
+    vertex: &'a Vertex,
+    beta: SampledSpectrum,
+    prefix: &'a Prefix,
+    /// Scattering events before this vertex.
+    depth: u32,
+}
+
+impl Bidirectional {
+    /// For a film of which the part `rendered` (1: all of it) gets camera paths.
+    pub fn new(rendered: Real) -> Self {
+        let light_path = LightPath::new(rendered);
+        Self { media: MediaMemory::default(), light_path }
+    }
+
+    /// What the last sample put elsewhere on the film than where its camera ray came from.
+    pub fn splats(&self) -> &[Splat] {
+        self.light_path.splats()
+    }
+
+    /// Traces the paths of a sample.
+    pub fn trace(
+        &mut self,
+        scene: &Scene,
+        numbers: &mut impl PrimarySample,
+        lambda: &SampledWavelengths,
+        camera: &CameraRay,
+        events: Events,
+        record: &mut impl Record,
+    ) -> PathSample {
+        let sample = Sample { world: self.media.world(scene, lambda), camera, events };
+        self.light_path.trace(&sample, numbers, record);
+        trace_camera(&sample, &self.light_path, numbers, record)
+    }
+}
+
+fn trace_camera(
+    sample: &Sample,
+    light_path: &LightPath,
+    numbers: &mut impl PrimarySample,
+    record: &mut impl Record,
+) -> PathSample {
+    let Sample { world, camera, events } = sample;
+    let scene = world.scene;
+    let mut radiance = SampledSpectrum::ZERO;
+    let mut beta = SampledSpectrum::splat(camera.importance).times(camera.ratio);
+    let pdf = scene.camera.pdf_direction(camera.direction) * light_path.film_density;
+    let mut step = Step::from_camera(pdf, camera.ratio);
+    let mut from = Receiver::all_round(camera.origin);
+    let ray = Ray::new(camera.origin, camera.direction);
+    let mut flight = Flight::new(ray.o, ray, scene.camera_media);
+    let (mut alpha, mut depth, mut number) = (0.0, 0, 0);
+    // By what roulette divides the throughput, so that it sees losses alone.
+    let mut expected = camera.importance;
+    loop {
+        let arrival = flight.advance(world, || numbers.block(Block::connect(number))[2]);
+        let wo = -flight.ray.d;
+        let free = flight.passage.free;
+        let arrived = beta * flight.passage.weight();
+        let (vertex, u) = match &arrival {
+            Arrival::Environment => {
+                let light = scene.lights.environment(-wo, world.lambda).filter(|_| events.holds(depth));
+                if let Some(light) = light {
+                    let prefix = step.arrive_at_environment(free);
+                    let drawn = scene.lights.pdf_environment(&from, -wo);
+                    let pdf = scene.lights.pdf_emission_environment(-wo, from.p);
+                    let densities = [drawn, pdf.first, pdf.second];
+                    radiance += found(&prefix, arrived * light, depth, densities, record);
+                }
+                break;
+            }
+            Arrival::Medium(p) => {
+                (Vertex::in_medium(world, *p, wo, flight.media), numbers.block(Block::scatter(number)))
+            }
+            Arrival::Surface(at) => {
+                let cos = wo.dot(at.n_g).abs();
+                if cos == 0.0 {
+                    break;
+                }
+                let emitter = emitter_hit(at);
+                if events.holds(depth)
+                    && let Some(light) = scene.lights.emitted(&emitter, wo, world.lambda)
+                {
+                    let distance2 = (at.p - from.p).length2();
+                    let prefix = step.arrive(distance2, LanePdf::splat(cos), free);
+                    let drawn = scene.lights.pdf_object(&emitter, &from) * cos / distance2;
+                    let pdf = scene.lights.pdf_emission_object(&emitter, wo);
+                    let densities = [drawn, pdf.first, pdf.second];
+                    radiance += found(&prefix, arrived * light, depth, densities, record);
+                }
+                let u = numbers.block(Block::scatter(number));
+                match shade(world, at, wo, &flight.media, u[3]) {
+                    Surface::Scatters(vertex) => (vertex, u),
+                    Surface::Unseen(media) => {
+                        flight.pass(world, at, media);
+                        number += 1;
+                        continue;
+                    }
+                }
+            }
+        };
+        alpha = 1.0;
+        if depth == events.most {
+            break;
+        }
+        let length = flight.length();
+        let prefix = step.arrive(length * length, vertex.reach(wo), free);
+        beta = arrived;
+        if let Some(collision) = vertex.collision() {
+            beta = beta.times(collision);
+        }
+        let lights = numbers.block(Block::light(number));
+        if vertex.is_connectable() {
+            let end = CameraVertex { vertex: &vertex, beta, prefix: &prefix, depth };
+            radiance += draw_light(sample, &end, lights, record);
+            radiance += join(sample, &light_path.vertices, &end, number, numbers, record);
+        }
+        if depth >= ROULETTE_FROM {
+            let chance = (beta.max_lane() / (prefix.ratio.mean() * expected)).min(1.0);
+            if lights[3] >= chance {
+                break;
+            }
+            beta *= 1.0 / chance;
+        }
+        let Some(next) = vertex.sample([u[0], u[1], u[2]], Mode::Radiance) else { break };
+        beta *= next.weight;
+        if beta.is_black() {
+            break;
+        }
+        step = go_on(&prefix, &next, &vertex);
+        from = vertex.receiver();
+        expected /= vertex.compression(world, next.wi);
+        flight = vertex.leave(world, next.wi);
+        depth += 1;
+        number += 1;
+    }
+    PathSample { radiance, alpha }
+}
+
+#[inline]
+fn go_on(prefix: &Prefix, next: &Scattered, vertex: &Vertex) -> Step {
+    prefix.step(next, vertex.reach(next.wi))
+}
