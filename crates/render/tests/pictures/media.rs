@@ -256,30 +256,5 @@ fn what_is_not_transparent_only_reflects() {
     let opaque = specular("mirror", "m").replace("<transparent>true", "<transparent>false");
     let parts = [clear("m", 10, 1.5), opaque, sphere([0.0; 3], 1.0, "mirror")];
     let scene = in_uniform_light([0.0, -5.0, 0.0], 1e-3, &parts);
-    assert_luminance("mirror", &measure(&scene, 8, 16), 0.04);
-}
-
-/// What nobody should model still gives a picture of finite numbers: a camera exactly on a surface, surfaces that
-/// are not closed, turned inside out, or laid upon one another. Nothing here makes light.
-#[test]
-fn faulty_models_of_media_give_dim_but_finite_pictures() {
-    let fog = scatters(1.4, 0.3, 2.0, 0.3);
-    let pane = Mesh::square(1.0, 0.0).placed([1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0], 1.0, [0.0; 3]);
-    let open = pane.text("pane", "surface") + &model("pane");
-    let turned = Mesh::ball(2).inside_out().text("turned", "surface") + &model("turned");
-    let on_surface = sphere([0.0; 3], 5.0, "surface");
-    for (what, object) in [
-        ("open", open.clone()),
-        ("turned", turned),
-        ("camera on it", on_surface),
-        ("twice", cube(0.5, "surface") + &model("cube")),
-        ("several", sphere([0.2, 0.0, 0.0], 0.7, "surface") + &sphere([0.0; 3], 0.7, "surface") + &open),
-    ] {
-        let mut scene = in_uniform_light([0.0, -5.0, 0.0], 0.3, &[fog.clone(), object]);
-        for (mode, bidirectional, metropolis, _) in MODES {
-            let seen = luminance_in_mode(&mut scene, bidirectional, metropolis, 2);
-            let limit = AROUND * NITS_PER_UNIFORM * 2.0;
-            assert!(seen.mean() > 0.0 && seen.mean() < limit, "{what}, {mode}: {}", seen.mean());
-        }
-    }
+    assert_luminance("mirror", &measure(&scene, 8, 64), 0.04);
 }
