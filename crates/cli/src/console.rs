@@ -108,6 +108,9 @@ pub fn progress_text(p: &Progress) -> String {
     parts.push(format!("{:.1} spp", p.samples_per_pixel));
     parts.push(format!("{} samples/s", scaled(p.samples_per_second)));
     parts.push(format!("{} elapsed", clock(p.elapsed)));
+    if let Some(error) = p.relative_error {
+        parts.push(format!("error {:.2}%", 100.0 * error));
+    }
     if let Some(left) = p.left {
         parts.push(format!("{} left", clock(left)));
     }
@@ -161,8 +164,11 @@ mod tests {
             elapsed: Duration::from_secs(12),
             left: Some(Duration::from_secs(44)),
             fraction: Some(0.125),
+            relative_error: None,
         };
         assert_eq!(progress_text(&p), " 12.5%   8.0 spp   1.23 M samples/s   0:12 elapsed   0:44 left");
+        let rough = Progress { relative_error: Some(0.0312), ..p };
+        assert!(progress_text(&rough).contains("elapsed   error 3.12%   0:44 left"));
         let endless = Progress { left: None, fraction: None, ..p };
         assert_eq!(progress_text(&endless), "8.0 spp   1.23 M samples/s   0:12 elapsed");
     }

@@ -16,8 +16,16 @@ pub enum Action {
     Threads,
     /// Names the random sequence.
     Seed,
+    /// Stops at an estimated error.
+    HaltError,
     /// Names the picture.
     Output,
+    /// Goes on with a saved film.
+    Resume,
+    /// Adds saved films.
+    Merge,
+    /// Develops a saved film.
+    ToneMap,
     /// Reads and reports, without rendering.
     Check,
     /// Lists the settings.
@@ -66,10 +74,34 @@ pub static FLAGS: &[Flag] = &[
         "Stop at this number of samples per pixel, or a little above it.",
     ),
     flag(
+        "halterror",
+        Some("E"),
+        Action::HaltError,
+        "Stop when the picture's relative error is estimated to be E or less: the root mean square of the luminance's error over its mean. 0.01 is hardly visible. Takes the memory of two more films.",
+    ),
+    flag(
         "o",
         Some("PATH"),
         Action::Output,
         "Write the picture to PATH (.png, which may be left out); other files take the same stem. Without it: renders/im_<UTC time>_<scene>.png.",
+    ),
+    flag(
+        "r",
+        Some("IGI"),
+        Action::Resume,
+        "Go on with the film saved in IGI (see save_igi). It must be of this scene with the same deciding settings. Its samples count towards -haltspp.",
+    ),
+    flag(
+        "merge",
+        None,
+        Action::Merge,
+        "Add the films of independent renders, with different seeds, of one scene: --merge A.igi B.igi ... -o SUM.igi",
+    ),
+    flag(
+        "tonemap",
+        None,
+        Action::ToneMap,
+        "Develop a saved film by the settings of a scene, without rendering: --tonemap SCENE.igs FILM.igi PICTURE.png",
     ),
     flag(
         "t",
@@ -81,7 +113,7 @@ pub static FLAGS: &[Flag] = &[
         "seed",
         Some("N"),
         Action::Seed,
-        "Choose the random sequence: the same seed gives the same picture.",
+        "Choose the random sequence: the same seed gives the same picture. Without it: 0, or the seed of the film that is gone on with.",
     ),
     flag("check", None, Action::Check, "Read the scene and report what is wrong with it, without rendering."),
     flag(
@@ -108,18 +140,26 @@ pub static FLAGS: &[Flag] = &[
 ];
 
 /// Options of the manual that this version does not have yet, by name: better a clear answer than a guess.
-const NOT_YET: &[&str] = &["h", "n", "p", "r", "ptest", "pack"];
+const NOT_YET: &[&str] = &["h", "n", "p", "ptest", "pack"];
 
 /// The command line, understood.
 #[derive(Debug, Default, PartialEq)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own on the command line")]
 pub struct Arguments {
-    /// The scene.
-    pub scene: Option<String>,
+    /// The scene; with `merge` or `tone_map` all files instead.
+    pub files: Vec<String>,
     /// Settings.
     pub settings: Vec<Override<'static>>,
-    /// Seed of the random sequence.
-    pub seed: u64,
+    /// Estimated relative error at which to stop.
+    pub halt_error: Option<f64>,
+    /// Seed of the random sequence, if one is asked for.
+    pub seed: Option<u64>,
+    /// Film to go on with.
+    pub resume: Option<String>,
+    /// Only add films.
+    pub merge: bool,
+    /// Only develop a film.
+    pub tone_map: bool,
     /// Path of the picture.
     pub output: Option<String>,
     /// Only check.
@@ -146,11 +186,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Arguments,
     while let Some(argument) = rest.next() {
         let argument = argument.into_string().map_err(|a| format!("{} is not Unicode text", a.display()))?;
         let Some(written) = argument.strip_prefix('-').filter(|a| !a.is_empty()) else {
-            if let Some(before) = parsed.scene.replace(argument.clone()) {
-                return Err(format!(
-                    "two scenes are given, {before} and {argument}; one is rendered at a time"
-                ));
-            }
+            parsed.files.push(argument);
             continue;
         };
         let written = written.strip_prefix('-').unwrap_or(written);
@@ -170,7 +206,29 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Arguments,
         };
         apply(flag, value, &mut parsed)?;
     }
+    check_files(&parsed)?;
     Ok(parsed)
+}
+
+/// Whether there are as many files as what is asked for takes.
+fn check_files(parsed: &Arguments) -> Result<(), String> {
+    match (&parsed.files[..], parsed.merge, parsed.tone_map) {
+        (_, true, true) => Err("-merge and -tonemap are two things to do; one is done at a time".to_owned()),
+        ([] | [_], true, _) => {
+            Err("-merge needs two or more films: --merge A.igi B.igi -o SUM.igi".to_owned())
+        }
+        (_, true, _) if parsed.output.is_none() => {
+            Err("-merge needs the file to write: --merge A.igi B.igi -o SUM.igi".to_owned())
+        }
+        (files, _, true) if files.len() != 3 => {
+            Err("-tonemap needs a scene, a film and a picture: --tonemap SCENE.igs FILM.igi PICTURE.png"
+                .to_owned())
+        }
+        ([first, second, ..], false, false) => {
+            Err(format!("two scenes are given, {first} and {second}; one is rendered at a time"))
+        }
+        _ => Ok(()),
+    }
 }
 
 fn find(name: &str) -> Result<&'static Flag, String> {
@@ -197,11 +255,23 @@ fn apply(flag: &Flag, value: String, parsed: &mut Arguments) -> Result<(), Strin
             parsed.settings.push(Override { option: "", setting: implied, value: "false".to_owned() });
         }
         Action::Seed => {
-            parsed.seed = value
-                .parse()
-                .map_err(|_| format!("-seed needs a whole number from 0 to {}, not {value}", u64::MAX))?;
+            let seed = value.parse();
+            parsed.seed =
+                Some(seed.map_err(|_| {
+                    format!("-seed needs a whole number from 0 to {}, not {value}", u64::MAX)
+                })?);
+        }
+        Action::HaltError => {
+            let error = value.parse().ok().filter(|e: &f64| *e > 0.0 && e.is_finite());
+            parsed.halt_error =
+                Some(error.ok_or_else(|| {
+                    format!("-halterror needs a number above 0, such as 0.01, not {value}")
+                })?);
         }
         Action::Output => parsed.output = Some(value),
+        Action::Resume => parsed.resume = Some(value),
+        Action::Merge => parsed.merge = true,
+        Action::ToneMap => parsed.tone_map = true,
         Action::Check => parsed.check = true,
         Action::PrintSettings => parsed.print_settings = true,
         Action::DumpMetadata => parsed.dump_metadata = Some(value),
@@ -263,9 +333,9 @@ mod tests {
     #[test]
     fn options_stand_anywhere_with_one_dash_or_two() {
         let a = parsed(&["-haltspp", "64", "a.igs", "--o", "x.png", "-t", "2", "--seed=7"]).unwrap();
-        assert_eq!(a.scene.as_deref(), Some("a.igs"));
+        assert_eq!(a.files, ["a.igs"]);
         assert_eq!(a.output.as_deref(), Some("x.png"));
-        assert_eq!(a.seed, 7);
+        assert_eq!(a.seed, Some(7));
         let settings: Vec<_> = a.settings.iter().map(|s| (s.option, s.setting, s.value.as_str())).collect();
         assert_eq!(
             settings,
@@ -286,6 +356,9 @@ mod tests {
             error(&["a.igs", "b.igs"]),
             "two scenes are given, a.igs and b.igs; one is rendered at a time"
         );
+        assert!(error(&["--merge", "a.igi", "-o", "b.igi"]).contains("two or more"));
+        assert!(error(&["--merge", "a.igi", "b.igi"]).contains("-o SUM.igi"));
+        assert!(error(&["--tonemap", "a.igs", "a.igi"]).contains("PICTURE.png"));
         assert_eq!(error(&["--check=1"]), "-check takes no value");
         assert_eq!(error(&["-n", "m"]), "-n is not in this version yet");
         assert!(error(&["-seed", "-3"]).contains("whole number"));

@@ -2,13 +2,14 @@
 
 mod console;
 mod cpu;
+mod films;
 mod flags;
 mod paths;
 mod render;
 
 use console::Console;
 use flags::Arguments;
-use indigo_diag::{Diagnostic, Severity, Style, summary_to_json, to_json, to_text};
+use indigo_diag::{Diagnostic, Severity, Sink, SourceMap, Style, summary_to_json, to_json, to_text};
 use indigo_igs::Limits;
 use indigo_render::disk::{DiskResolver, DiskTreeStore};
 use indigo_render::pool::with_jobs;
@@ -51,7 +52,13 @@ fn run(arguments: &Arguments, console: &mut Console) -> u8 {
     if let Some(path) = &arguments.dump_metadata {
         return dump_metadata(path, console);
     }
-    let Some(scene) = &arguments.scene else {
+    if arguments.merge {
+        return films::merge(arguments, console);
+    }
+    if arguments.tone_map {
+        return films::tone_map(arguments, console);
+    }
+    let Some(scene) = arguments.files.first() else {
         console.say("error: no scene is given: indigo_console SCENE.igs [options]; --help lists all options");
         return BAD_INPUT;
     };
@@ -71,11 +78,11 @@ fn run(arguments: &Arguments, console: &mut Console) -> u8 {
         console.log_to(std::path::Path::new("log.txt"));
     }
     if arguments.json {
-        if !console.answer(&json_report(scene, &loaded)) {
+        if !console.answer(&json_report(scene, &loaded.sink, &loaded.sources)) {
             return FAILED;
         }
     } else {
-        report(scene, &loaded, arguments.check, console);
+        report(scene, &loaded.sink, &loaded.sources, arguments.check, console);
     }
     if arguments.print_settings && answer(&settings_listing(&loaded), console) != RENDERED {
         return FAILED;
@@ -93,46 +100,50 @@ fn answer(text: &str, console: &mut Console) -> u8 {
 }
 
 fn load_scene(path: &str, arguments: &Arguments) -> Loaded {
-    let resolver = DiskResolver::new(paths::resource_directories()).for_scene(path);
+    with_load_options(path, arguments, |options| with_jobs(render::logical_cores(), || load(path, options)))
+}
+
+/// Calls `load` with what the command line and this machine add to a scene.
+fn with_load_options<T>(scene: &str, arguments: &Arguments, load: impl FnOnce(&LoadOptions) -> T) -> T {
+    let resolver = DiskResolver::new(paths::resource_directories()).for_scene(scene);
     let trees = DiskTreeStore::new(paths::tree_cache());
     let inifile = paths::inifile();
-    let options = LoadOptions {
+    load(&LoadOptions {
         resolver: &resolver,
         trees: &trees,
         inifile: inifile.as_deref(),
         overrides: &arguments.settings,
         limits: Limits::default(),
         check_only: arguments.check || arguments.print_settings,
-    };
-    with_jobs(render::logical_cores(), || load(path, &options))
+    })
 }
 
 /// Everything that was found in the scene, errors last so that they are seen.
-fn found(loaded: &Loaded) -> Vec<&Diagnostic> {
-    let mut found: Vec<_> = loaded.sink.diagnostics().iter().collect();
+fn found(sink: &Sink) -> Vec<&Diagnostic> {
+    let mut found: Vec<_> = sink.diagnostics().iter().collect();
     found.sort_by_key(|d| d.severity == Severity::Error);
     found
 }
 
-fn report(scene: &str, loaded: &Loaded, is_check: bool, console: &mut Console) {
+fn report(scene: &str, sink: &Sink, sources: &SourceMap, is_check: bool, console: &mut Console) {
     let style = if console.is_coloured() { Style::Colour } else { Style::Plain };
-    for diagnostic in found(loaded) {
-        console.say(to_text(diagnostic, &loaded.sources, style).trim_end());
+    for diagnostic in found(sink) {
+        console.say(to_text(diagnostic, sources, style).trim_end());
     }
-    if loaded.sink.dropped() > 0 {
-        console.say(&format!("... and {} more", loaded.sink.dropped()));
+    if sink.dropped() > 0 {
+        console.say(&format!("... and {} more", sink.dropped()));
     }
-    if loaded.sink.has_errors() {
-        console.say(&format!("{scene}: {}", count(loaded.sink.error_count(), "error")));
+    if sink.has_errors() {
+        console.say(&format!("{scene}: {}", count(sink.error_count(), "error")));
     } else if is_check {
         console.say(&format!("{scene}: no errors"));
     }
 }
 
 /// The same as a line of JSON each, and a summary.
-fn json_report(scene: &str, loaded: &Loaded) -> String {
-    let lines = found(loaded).into_iter().map(|d| to_json(d, &loaded.sources));
-    lines.chain([summary_to_json(scene, &loaded.sink)]).map(|line| line + "\n").collect()
+fn json_report(scene: &str, sink: &Sink, sources: &SourceMap) -> String {
+    let lines = found(sink).into_iter().map(|d| to_json(d, sources));
+    lines.chain([summary_to_json(scene, sink)]).map(|line| line + "\n").collect()
 }
 
 /// "1 error", "2 errors".

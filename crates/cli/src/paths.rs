@@ -14,10 +14,14 @@ pub fn inifile() -> Option<String> {
     std::iter::once(PathBuf::from(NAME)).chain(beside).find(|p| p.is_file()).map(|p| p.display().to_string())
 }
 
-/// Where files that come with the program are.
+/// Where files that come with the program are: the folder that the environment names, the program's own, and the
+/// nearest one above it that holds the program's data.
 pub fn resource_directories() -> Vec<PathBuf> {
+    const DATA: &str = "data/camera_response_functions";
     let named = std::env::var_os("INDIGO_RESOURCES").map(PathBuf::from);
-    named.into_iter().chain(program_directory()).collect()
+    let program = program_directory();
+    let above = program.as_deref().and_then(|d| d.ancestors().find(|d| d.join(DATA).is_dir()));
+    named.into_iter().chain(program.clone()).chain(above.map(Path::to_path_buf)).collect()
 }
 
 fn program_directory() -> Option<PathBuf> {
@@ -104,7 +108,7 @@ pub fn reserve_picture(scene: &str, now: SystemTime) -> std::io::Result<Reserved
         let path = picture_of(scene, now, number);
         number += 1;
         let paths = OutputPaths::new(path.clone());
-        if paths.untonemapped_exr().exists() || paths.tonemapped_exr().exists() {
+        if [paths.untonemapped_exr(), paths.tonemapped_exr(), paths.igi()].iter().any(|p| p.exists()) {
             continue;
         }
         if let Some(directory) = path.parent() {

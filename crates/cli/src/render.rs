@@ -1,10 +1,12 @@
 //! Rendering a scene until it is done, saving on the way.
 
-use crate::console::{Console, progress_text, scaled};
+use crate::console::{Console, clock, progress_text, scaled};
 use crate::flags::Arguments;
-use crate::{FAILED, RENDERED, VERSION, count, paths};
+use crate::{BAD_INPUT, FAILED, RENDERED, VERSION, count, films, paths};
+use indigo_film::SavedFilm;
 use indigo_render::output::{OutputPaths, SaveError, SaveJob, Saving};
-use indigo_render::{Event, Halt, HaltReason, Options, Progress, Session, preview};
+use indigo_render::saved::read_film;
+use indigo_render::{Event, Halt, HaltReason, Options, Progress, Session, SessionError, preview};
 use indigo_scene::schema::settings::MOST_THREADS;
 use indigo_scene::{OutputSettings, Scene};
 use std::path::{Path, PathBuf};
@@ -15,9 +17,9 @@ use std::time::{Duration, Instant, SystemTime};
 /// How often Ctrl-C was pressed.
 static INTERRUPTS: AtomicUsize = AtomicUsize::new(0);
 
-/// How often the progress line is renewed on a terminal, and a line written elsewhere.
+/// How often the progress line is renewed on a terminal, where it costs no room. Elsewhere the setting
+/// `display_period` decides how often a line is written.
 const ON_TERMINAL: Duration = Duration::from_millis(250);
-const ELSEWHERE: Duration = Duration::from_secs(10);
 
 /// Number of logical cores.
 pub fn logical_cores() -> usize {
@@ -30,6 +32,10 @@ pub fn logical_cores() -> usize {
 pub fn render(scene: Scene, arguments: &Arguments, named: Option<PathBuf>, console: &mut Console) -> u8 {
     let scene = Arc::new(scene);
     describe(&scene, console);
+    let saved = match arguments.resume.as_ref().map(|path| read_film(Path::new(path))).transpose() {
+        Ok(saved) => saved,
+        Err(error) => return films::fail(&error, console),
+    };
     let picture = match Picture::new(named, &scene, arguments, console) {
         Ok(picture) => picture,
         Err(error) => {
@@ -40,23 +46,35 @@ pub fn render(scene: Scene, arguments: &Arguments, named: Option<PathBuf>, conso
     preview_aperture(&scene, console);
     let options = Options {
         threads: scene.output.threads.unwrap_or_else(logical_cores).min(MOST_THREADS),
-        seed: arguments.seed,
-        halt: halt(&scene.output),
+        seed: arguments.seed.unwrap_or_else(|| seed_of(saved.as_ref())),
+        halt: Halt { relative_error: arguments.halt_error, ..halt(&scene.output) },
+        epoch: epoch(&scene.output),
         ..Options::default()
     };
     let job = SaveJob {
-        scene: Arc::clone(&scene),
+        development: scene.development(),
         paths: OutputPaths::new(picture.path()),
-        version: format!("{VERSION}, {} {} build.", std::env::consts::OS, std::env::consts::ARCH),
+        version: program(),
         threads: options.threads,
-        seed: options.seed,
     };
+    // Now rather than after hours of rendering.
+    if let Err(error) = job.check_writable() {
+        console.say(&format!("error: {error}"));
+        return FAILED;
+    }
     catch_interrupts(console);
-    match Session::start(Arc::clone(&scene), &options) {
-        Ok(session) => follow(session, &job, console),
+    let session = match &saved {
+        Some(saved) => Session::go_on(Arc::clone(&scene), &options, saved),
+        None => Session::start(Arc::clone(&scene), &options),
+    };
+    match session {
+        Ok(session) => {
+            describe_film(arguments.resume.as_deref(), saved, console);
+            follow(session, &job, console)
+        }
         Err(error) => {
             console.say(&format!("error: {error}"));
-            FAILED
+            if matches!(error, SessionError::Mismatch(_)) { BAD_INPUT } else { FAILED }
         }
     }
 }
@@ -89,6 +107,24 @@ impl Picture {
             Self::Reserved(reserved) => &reserved.path,
         }
     }
+}
+
+/// Name, version and platform of the program.
+pub fn program() -> String {
+    format!("{VERSION}, {} {} build.", std::env::consts::OS, std::env::consts::ARCH)
+}
+
+/// The seed that a film was last rendered with; without a film the first of all.
+fn seed_of(saved: Option<&SavedFilm>) -> u64 {
+    saved.and_then(|s| s.record.as_ref()?.runs.last()).map_or(0, |run| run.seed)
+}
+
+/// Says what is gone on with, and frees it: the session has a copy.
+fn describe_film(path: Option<&str>, saved: Option<SavedFilm>, console: &mut Console) {
+    let (Some(path), Some(SavedFilm { film, record: Some(record) })) = (path, saved) else { return };
+    let spp = record.samples as f64 / film.size.pixels() as f64;
+    let time = clock(Duration::try_from_secs_f64(record.elapsed_s).unwrap_or_default());
+    console.say(&format!("Going on with {path}: {spp:.1} spp, {time} of rendering"));
 }
 
 fn describe(scene: &Scene, console: &mut Console) {
@@ -134,7 +170,14 @@ fn halt(output: &OutputSettings) -> Halt {
         time: output.halt_time.and_then(|t| Duration::try_from_secs_f64(t).ok()),
         // A fraction of a sample cannot be taken: at least as many as were asked for.
         samples_per_pixel: output.halt_samples_per_pixel.map(|n| n.ceil() as u64),
+        relative_error: None,
     }
+}
+
+/// Workers hand over as often as pictures are saved, or none would show what the last save did not.
+fn epoch(output: &OutputSettings) -> Duration {
+    let period = Duration::try_from_secs_f64(output.image_save_period).unwrap_or(Duration::MAX);
+    Options::default().epoch.min(period)
 }
 
 /// The first Ctrl-C ends the render in good order, the second one leaves at once.
@@ -153,18 +196,20 @@ fn catch_interrupts(console: &mut Console) {
 
 /// Follows a session to its end; the exit status.
 fn follow(mut session: Session, job: &SaveJob, console: &mut Console) -> u8 {
-    let period = Duration::try_from_secs_f64(job.scene.output.image_save_period).unwrap_or(Duration::MAX);
-    let mut saver = Saver { job, saving: None, last: Instant::now(), announced: false, failures: 0 };
+    let output = &job.development.output;
+    let seconds = |s: f64| Duration::try_from_secs_f64(s).unwrap_or(Duration::MAX);
+    let period = seconds(output.image_save_period);
+    let mut saver = Saver { job, period, saving: None, last: Instant::now(), announced: false, failures: 0 };
     let mut last_line: Option<Instant> = None;
-    let between = if console.is_terminal() { ON_TERMINAL } else { ELSEWHERE };
+    let between = if console.is_terminal() { ON_TERMINAL } else { seconds(output.display_period) };
     loop {
-        match session.wait(ON_TERMINAL) {
+        match session.wait(ON_TERMINAL.min(between).min(saver.until_due())) {
             Event::Progress(progress) => {
                 if last_line.is_none_or(|t| t.elapsed() >= between) {
                     console.progress(&progress_text(&progress));
                     last_line = Some(Instant::now());
                 }
-                saver.tend(&session, &progress, period, console);
+                saver.tend(&session, console);
                 if INTERRUPTS.load(Ordering::Relaxed) > 0 {
                     session.stop();
                 }
@@ -186,14 +231,14 @@ fn finish(
     if let HaltReason::Failed(message) = reason {
         console.say(&format!("error: {message}"));
     }
-    let film = session.snapshot();
-    if film.refused > 0 {
+    let saved = session.saved(&saver.job.version);
+    if saved.film.refused > 0 {
         console.say(&format!(
             "warning: {} contributions were not finite and were left out: this is a bug, please report it",
-            film.refused
+            saved.film.refused
         ));
     }
-    match saver.job.save(&film, progress) {
+    match saver.job.save(&saved) {
         Ok(files) => {
             say_saved(&files, console);
             if matches!(reason, HaltReason::Failed(_)) { FAILED } else { RENDERED }
@@ -205,7 +250,8 @@ fn finish(
     }
 }
 
-fn say_saved(files: &[PathBuf], console: &mut Console) {
+/// Names the files that were written.
+pub fn say_saved(files: &[PathBuf], console: &mut Console) {
     for file in files {
         console.say(&format!("Saved {}", file.display()));
     }
@@ -214,6 +260,7 @@ fn say_saved(files: &[PathBuf], console: &mut Console) {
 /// Saves the picture now and then, one save at a time.
 struct Saver<'a> {
     job: &'a SaveJob,
+    period: Duration,
     saving: Option<Saving>,
     last: Instant,
     announced: bool,
@@ -221,13 +268,20 @@ struct Saver<'a> {
 }
 
 impl Saver<'_> {
-    fn tend(&mut self, session: &Session, progress: &Progress, period: Duration, console: &mut Console) {
+    /// Time until the next save is due. While one is under way the next cannot begin: then it is looked after
+    /// as often as the system lets a thread sleep and wake without effort.
+    fn until_due(&self) -> Duration {
+        const WHILE_SAVING: Duration = Duration::from_millis(5);
+        self.period.saturating_sub(self.last.elapsed()).max(WHILE_SAVING)
+    }
+
+    fn tend(&mut self, session: &Session, console: &mut Console) {
         if self.saving.as_ref().is_some_and(Saving::is_finished) {
             self.wait_for_last(console);
         }
-        if self.saving.is_none() && self.last.elapsed() >= period {
+        if self.saving.is_none() && self.last.elapsed() >= self.period {
             self.last = Instant::now();
-            match self.job.spawn(session.snapshot(), *progress) {
+            match self.job.spawn(session.saved(&self.job.version)) {
                 Ok(saving) => self.saving = Some(saving),
                 Err(error) => self.complain(&error, console),
             }

@@ -54,4 +54,7 @@ pub enum FilmError {
     /// The films differ in the number, kinds or names of their layers.
     #[error("films with different layers cannot be merged")]
     LayerMismatch,
+    /// A film of another program does not say what its values are sums of.
+    #[error("the film of another program can be developed, but not added to or gone on with")]
+    Foreign,
 }

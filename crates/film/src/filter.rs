@@ -1,6 +1,7 @@
 //! The separable reconstruction filters that both splatting and downsizing use.
 
 use crate::FilmError;
+use std::fmt;
 
 /// A separable filter. Distances are in internal pixels where the filter splats, and in output
 /// pixels where it downsizes. Each has the integral 1 along each axis.
@@ -28,6 +29,17 @@ const GAUSSIAN_CUT: f64 = 1e-5;
 /// The integral of the Gaussian between its cuts: erf(4.825725/√2), where 4.825725 standard
 /// deviations are the radius. The tests integrate it numerically.
 const GAUSSIAN_MASS: f64 = 0.999_998_605_048_546;
+
+impl fmt::Display for Filter {
+    /// By the names that scenes use.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Box => f.write_str("box"),
+            Self::Gaussian => f.write_str("gaussian"),
+            Self::MitchellNetravali { blur, ring } => write!(f, "mn_cubic with blur {blur}, ring {ring}"),
+        }
+    }
+}
 
 impl Filter {
     /// No filter reaches farther than this from its centre (pixels).

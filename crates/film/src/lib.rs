@@ -17,6 +17,7 @@
 //! | [`Sensor`] | spectrum to XYZ, the only place where that happens |
 //! | [`FilmDelta`], [`MasterFilm`], [`FilmState`] | gathering, sharing and keeping the sums |
 //! | [`XyzImage`] | the film developed: radiance per internal pixel |
+//! | [`SavedFilm`], [`igi`] | a film with where it comes from, and as a file |
 
 mod band;
 mod delta;
@@ -24,9 +25,11 @@ mod develop;
 mod error;
 mod film_filter;
 mod filter;
+pub mod igi;
 mod layer;
 mod master;
 mod profile;
+mod record;
 mod sensor;
 mod size;
 mod state;
@@ -38,6 +41,7 @@ pub use film_filter::{FilmFilter, FilmSample, Footprint};
 pub use filter::Filter;
 pub use layer::{Layer, LayerKind, Totals};
 pub use master::MasterFilm;
+pub use record::{FilmRecord, Mismatch, Run, SavedFilm};
 pub use sensor::Sensor;
 pub use size::FilmSize;
 pub use state::FilmState;

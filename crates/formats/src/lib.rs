@@ -1,4 +1,4 @@
-//! Readers of mesh and picture files: bytes in, plain data or a positioned error out.
+//! Readers of mesh, picture and other data files: bytes in, plain data or a positioned error out.
 //!
 //! | module | files | result |
 //! |---|---|---|
@@ -6,6 +6,7 @@
 //! | [`image`] | PNG, JPEG, TGA, BMP, TIFF, HDR, EXR | [`image::Image`] |
 //! | [`float_map`] | .float | [`image::Image`] |
 //! | [`ies`] | photometric data of lamps | [`ies::Photometry`] |
+//! | [`response`] | response curves of cameras | [`response::ResponseCurve`] |
 //!
 //! Readers take the whole file as bytes: who opens it, and where, is the caller's business. Files may be damaged or
 //! hostile: a reader never panics, never allocates by a number that the file merely claims, and takes a time bounded by
@@ -26,6 +27,7 @@ mod mesh_file;
 pub mod obj;
 pub mod ply;
 mod polygon;
+pub mod response;
 mod text;
 pub mod three_ds;
 mod vec3;

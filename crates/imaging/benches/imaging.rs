@@ -2,7 +2,7 @@
 //! encoding it. On two threads; the best of five runs, the one least disturbed by other programs.
 
 use indigo_film::{FilmSize, FilmState, Filter, LayerKind};
-use indigo_imaging::png::Depth;
+use indigo_imaging::png::{Depth, Format};
 use indigo_imaging::{
     Exposure, Metadata, PictureSettings, ToneMapping, WhiteBalance, develop_image, exr, png, untonemapped,
 };
@@ -36,29 +36,27 @@ fn film(size: FilmSize) -> FilmState {
 
 fn report() {
     let film = film(FilmSize::new(1632, 1224, 2).expect("a good size"));
-    let settings = |tone_mapping, downsize| PictureSettings {
-        diffraction: None,
-        bloom: None,
-        tone_mapping,
+    let exposure = Exposure { aperture_area: 7.85e-5, lens_sensor_dist: 0.05, duration: 0.01 };
+    let settings = |tone_mapping: &ToneMapping, downsize| PictureSettings {
         white_balance: WhiteBalance::from_white([0.34567, 0.35850]).expect("D50 is a white"),
         downsize,
-        exposure: Exposure { aperture_area: 7.85e-5, lens_sensor_dist: 0.05, duration: 0.01 },
-        foreground_alpha: false,
-        region: None,
+        ..PictureSettings::plain(tone_mapping.clone(), exposure)
     };
     let linear = ToneMapping::Linear { scale: 10.0 };
     let reinhard = ToneMapping::Reinhard { pre_scale: 1.0, post_scale: 1.0, burn: 10.0 };
     let image = best("film to XYZ", || film.develop());
-    best("linear, box", || develop_image(&image, &settings(linear, Filter::Box)));
-    best("linear, Mitchell-Netravali", || develop_image(&image, &settings(linear, Filter::MN_DEFAULT)));
+    best("linear, box", || develop_image(&image, &settings(&linear, Filter::Box)));
+    best("linear, Mitchell-Netravali", || develop_image(&image, &settings(&linear, Filter::MN_DEFAULT)));
     let picture = best("Reinhard, Mitchell-Netravali", || {
-        develop_image(&image, &settings(reinhard, Filter::MN_DEFAULT))
+        develop_image(&image, &settings(&reinhard, Filter::MN_DEFAULT))
     });
     let untonemapped =
         best("untonemapped, Mitchell-Netravali", || untonemapped(&image, Filter::MN_DEFAULT, None));
     let none = Metadata::default();
     for (name, depth) in [("PNG, 8 bits", Depth::Eight), ("PNG, 16 bits", Depth::Sixteen)] {
-        let bytes = best(name, || png::encode(&picture, &none, depth).expect("a good picture"));
+        let bytes = best(name, || {
+            png::encode(&picture, &none, Format { depth, dithered: false }).expect("a good picture")
+        });
         println!("  {:.1} MB", bytes.len() as f64 / 1e6);
     }
     let bytes = best("EXR", || exr::encode(&untonemapped, &none).expect("a good picture"));

@@ -3,7 +3,7 @@
 use crate::downsize::{downsize, extent};
 use crate::tonemap::ToneMapper;
 use crate::white_balance::plain_rgb;
-use crate::{LinearImage, Picture, PictureSettings, Region};
+use crate::{LinearImage, Picture, PictureSettings, Region, watermark};
 use indigo_film::{FilmSize, FilmState, Filter, XyzImage};
 use rayon::prelude::*;
 
@@ -51,7 +51,12 @@ pub fn develop_image(image: &XyzImage, settings: &PictureSettings) -> Picture {
         })
     };
     clamp(&mut pixels);
-    Picture { width: size.width(), height: size.height(), pixels: framed(size, region, pixels) }
+    let pixels = framed(size, region, pixels);
+    let mut picture = Picture { width: size.width(), height: size.height(), pixels };
+    if settings.watermark {
+        watermark::draw(&mut picture);
+    }
+    picture
 }
 
 /// Makes the linear picture of the light on the sensor ([`on_sensor`]): Rec. 709 in cd/m², without white balance and exposure.

@@ -16,11 +16,25 @@ const PREFIX: &str = "indigo.";
 /// attribute (UTF-8) whose name is its key after `indigo.`. Errors: metadata that cannot be
 /// stored, a picture without pixels.
 pub fn encode(image: &LinearImage, metadata: &Metadata) -> Result<Vec<u8>, ImagingError> {
+    encode_scaled(image, metadata, Some(1.0))
+}
+
+/// The same of display-linear values, whose 1 is the display's white: the file has no `whiteLuminance`, since
+/// that depends on the display.
+pub fn encode_display_linear(image: &LinearImage, metadata: &Metadata) -> Result<Vec<u8>, ImagingError> {
+    encode_scaled(image, metadata, None)
+}
+
+fn encode_scaled(
+    image: &LinearImage,
+    metadata: &Metadata,
+    white_luminance: Option<f32>,
+) -> Result<Vec<u8>, ImagingError> {
     let (width, height) = (image.width as usize, image.height as usize);
     if width * height != image.pixels.len() || image.pixels.is_empty() {
         return Err(ImagingError::Exr("the picture has no pixels, or not as many as its size says".into()));
     }
-    let mut attributes = LayerAttributes { white_luminance: Some(1.0), ..LayerAttributes::default() };
+    let mut attributes = LayerAttributes { white_luminance, ..LayerAttributes::default() };
     for (key, value) in metadata.sorted()? {
         let name = Text::from_slice_unchecked(format!("{PREFIX}{key}").as_bytes());
         let value = Text::from_slice_unchecked(value.as_bytes());

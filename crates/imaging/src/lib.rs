@@ -10,7 +10,7 @@
 //!
 //! The order of the steps, for each internal pixel: XYZ, diffraction, bloom, Bradford adaptation to D65, linear
 //! Rec. 709, tone mapping, clamping to [0, 1]; then the downsize filter, in display-linear light,
-//! and clamping again, since a filter with negative lobes overshoots. Clamping first is what makes
+//! and clamping again, since a filter with negative lobes overshoots; the watermark, if it is asked for. Clamping first is what makes
 //! an edge of something very bright as smooth as any other.
 //!
 //! Everything here is a pure function of bytes and numbers; large loops run on the caller's rayon
@@ -29,6 +29,7 @@ pub mod png;
 mod settings;
 mod srgb;
 mod tonemap;
+mod watermark;
 mod white_balance;
 
 pub use bloom::Bloom;
@@ -38,5 +39,5 @@ pub use error::ImagingError;
 pub use metadata::{Metadata, RenderFacts};
 pub use picture::{LinearImage, Picture};
 pub use settings::{Exposure, PictureSettings, Region};
-pub use tonemap::ToneMapping;
+pub use tonemap::{Response, ToneMapping};
 pub use white_balance::WhiteBalance;

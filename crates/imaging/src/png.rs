@@ -1,7 +1,8 @@
 //! PNG: the picture as it is shown, with its metadata.
 
-use crate::srgb::{Encoder8, encode16};
+use crate::srgb::{self, Encoder8, encode16};
 use crate::{ImagingError, Metadata, Picture};
+use indigo_math::rng::{self, Rng};
 use png::{BitDepth, ColorType, Compression, Decoder, Encoder, SrgbRenderingIntent};
 use rayon::prelude::*;
 use std::io::Cursor;
@@ -19,10 +20,31 @@ pub enum Depth {
 /// The most bytes of compressed text that [`read_metadata`] unpacks from one entry.
 const TEXT_LIMIT: usize = 1 << 20;
 
+/// How a PNG holds its pixels.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Format {
+    /// Bits per component.
+    pub depth: Depth,
+    /// Whether codes are dithered: each is one of the two nearest, by chance, so that they are right on average and
+    /// no bands appear in smooth gradients. Otherwise the nearest.
+    pub dithered: bool,
+}
+
+impl From<Depth> for Format {
+    fn from(depth: Depth) -> Self {
+        Self { depth, dithered: false }
+    }
+}
+
 /// Encodes a picture as sRGB, with its metadata as uncompressed text sorted by key before the
 /// pixels. A value beyond Latin-1 becomes UTF-8 text (iTXt). Errors: metadata that cannot be
 /// stored, a picture without pixels.
-pub fn encode(picture: &Picture, metadata: &Metadata, depth: Depth) -> Result<Vec<u8>, ImagingError> {
+pub fn encode(
+    picture: &Picture,
+    metadata: &Metadata,
+    format: impl Into<Format>,
+) -> Result<Vec<u8>, ImagingError> {
+    let format = format.into();
     let mut bytes = Vec::new();
     let mut encoder = Encoder::new(&mut bytes, picture.width, picture.height);
     encoder.set_color(ColorType::Rgb);
@@ -36,14 +58,18 @@ pub fn encode(picture: &Picture, metadata: &Metadata, depth: Depth) -> Result<Ve
             encoder.add_itxt_chunk(key, value).map_err(failure)?;
         }
     }
-    let data = match depth {
+    let data = match format.depth {
         Depth::Eight => {
             encoder.set_depth(BitDepth::Eight);
-            codes8(picture)
+            if format.dithered { dithered(picture, 255.0, |code| [code as u8]) } else { codes8(picture) }
         }
         Depth::Sixteen => {
             encoder.set_depth(BitDepth::Sixteen);
-            codes16(picture)
+            if format.dithered {
+                dithered(picture, 65535.0, |code| (code as u16).to_be_bytes())
+            } else {
+                codes16(picture)
+            }
         }
     };
     let mut writer = encoder.write_header().map_err(failure)?;
@@ -94,6 +120,21 @@ fn codes8(picture: &Picture) -> Vec<u8> {
 fn codes16(picture: &Picture) -> Vec<u8> {
     let code = |v: &f32| encode16(*v).to_be_bytes();
     picture.pixels.par_iter().flat_map_iter(|p| p[..3].iter().flat_map(code)).collect()
+}
+
+/// Codes up to `largest`, each rounded up with the chance that its fraction tells. The same picture has always the
+/// same codes.
+fn dithered<const N: usize>(
+    picture: &Picture,
+    largest: f64,
+    bytes: impl Fn(f64) -> [u8; N] + Sync,
+) -> Vec<u8> {
+    let code = |i: usize, c: usize, v: f32| {
+        let u = Rng::new(rng::key(&[i as u64, c as u64])).next_f64();
+        bytes((srgb::encode(f64::from(v)) * largest + u).floor().min(largest))
+    };
+    let pixels = picture.pixels.par_iter().enumerate();
+    pixels.flat_map_iter(|(i, p)| [0, 1, 2].map(|c| code(i, c, p[c])).into_iter().flatten()).collect()
 }
 
 fn failure(error: impl std::fmt::Display) -> ImagingError {

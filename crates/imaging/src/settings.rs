@@ -25,6 +25,25 @@ pub struct PictureSettings {
     pub foreground_alpha: bool,
     /// The part of the picture that is rendered; the rest of it stays black. None: all of it.
     pub region: Option<Region>,
+    /// Whether the program's name is drawn into the lower right corner.
+    pub watermark: bool,
+}
+
+impl PictureSettings {
+    /// A tone mapping and an exposure, and nothing else out of the ordinary.
+    pub fn plain(tone_mapping: ToneMapping, exposure: Exposure) -> Self {
+        Self {
+            diffraction: None,
+            bloom: None,
+            tone_mapping,
+            white_balance: WhiteBalance::NONE,
+            downsize: Filter::MN_DEFAULT,
+            exposure,
+            foreground_alpha: false,
+            region: None,
+            watermark: false,
+        }
+    }
 }
 
 /// The facts of a camera that decide its exposure.

@@ -10,7 +10,7 @@ pub(crate) fn encode(linear: f64) -> f64 {
 }
 
 /// The inverse of [`encode`].
-fn decode(value: f64) -> f64 {
+pub(crate) fn decode(value: f64) -> f64 {
     if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
 }
 

@@ -1,7 +1,7 @@
 //! White balance and tone mapping against numbers worked out by hand, or taken from published
 //! tables.
 
-use indigo_film::{FilmSize, FilmState, Filter, LayerKind};
+use indigo_film::{FilmSize, FilmState, LayerKind};
 use indigo_imaging::{Exposure, PictureSettings, ToneMapping, WhiteBalance, develop};
 
 /// π · (r/d)² · t = 2 with these.
@@ -12,16 +12,7 @@ const EXPOSURE: Exposure = Exposure {
 };
 
 fn settings(tone_mapping: ToneMapping) -> PictureSettings {
-    PictureSettings {
-        diffraction: None,
-        bloom: None,
-        tone_mapping,
-        white_balance: WhiteBalance::NONE,
-        downsize: Filter::MN_DEFAULT,
-        exposure: EXPOSURE,
-        foreground_alpha: false,
-        region: None,
-    }
+    PictureSettings::plain(tone_mapping, EXPOSURE)
 }
 
 /// A film one pixel high that holds these colours.

@@ -1,9 +1,7 @@
 //! Downsizing: constants, energy, borders, regions, coverage.
 
 use indigo_film::{FilmFilter, FilmSize, FilmState, Filter, LayerKind, XyzImage};
-use indigo_imaging::{
-    Exposure, PictureSettings, Region, ToneMapping, WhiteBalance, develop, develop_image, untonemapped,
-};
+use indigo_imaging::{Exposure, PictureSettings, Region, ToneMapping, develop, develop_image, untonemapped};
 use indigo_math::{Real, Vec2};
 
 const FILTERS: [Filter; 4] =
@@ -14,16 +12,9 @@ const WHITE: [f32; 3] = [0.950_455_9, 1.0, 1.089_057_8];
 
 /// With an exposure of 1 lux·s per cd/m² and scale 1: what is in the film is what is shown.
 fn settings(downsize: Filter) -> PictureSettings {
-    PictureSettings {
-        diffraction: None,
-        bloom: None,
-        tone_mapping: ToneMapping::Linear { scale: 1.0 },
-        white_balance: WhiteBalance::NONE,
-        downsize,
-        exposure: Exposure { aperture_area: 1.0, lens_sensor_dist: 1.0, duration: 1.0 },
-        foreground_alpha: false,
-        region: None,
-    }
+    let exposure = Exposure { aperture_area: 1.0, lens_sensor_dist: 1.0, duration: 1.0 };
+    let linear = ToneMapping::Linear { scale: 1.0 };
+    PictureSettings { downsize, ..PictureSettings::plain(linear, exposure) }
 }
 
 fn size(width: u32, height: u32, super_sample: u32) -> FilmSize {

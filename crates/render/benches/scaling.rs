@@ -30,12 +30,8 @@ fn cornell_box() -> Arc<Scene> {
 
 /// Samples per second of one run, from its start until all threads have handed over.
 fn rate(scene: &Arc<Scene>, threads: usize, seed: u64) -> f64 {
-    let options = Options {
-        threads,
-        seed,
-        halt: Halt { time: Some(RUN), samples_per_pixel: None },
-        ..Options::default()
-    };
+    let options =
+        Options { threads, seed, halt: Halt { time: Some(RUN), ..Halt::default() }, ..Options::default() };
     let start = Instant::now();
     let mut session = Session::start(Arc::clone(scene), &options).expect("threads");
     loop {

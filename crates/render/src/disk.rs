@@ -1,9 +1,8 @@
-//! The disk: finding the files that scenes name, keeping built trees, and writing files so that a
-//! crash at any moment leaves the old one or the new one, never half of one.
+//! The disk: finding the files that scenes name, and keeping built trees.
 
+use crate::atomic::write_atomically;
 use indigo_decl::{ResolveError, Resolved, Resolver};
 use indigo_geom::TreeStore;
-use std::fmt::Write as _;
 use std::fs::File;
 use std::io::{Read, Write as _};
 use std::path::{Path, PathBuf};
@@ -73,6 +72,21 @@ impl DiskResolver {
     }
 }
 
+/// A file's bytes, as long as they are no more than are ever read of one.
+///
+/// # Errors
+/// What the system says, or that the file is too large.
+pub fn read_limited(path: &Path) -> std::io::Result<Vec<u8>> {
+    let file = File::open(path)?;
+    let length = file.metadata()?.len();
+    if length > DiskResolver::DEFAULT_LIMIT {
+        return Err(std::io::ErrorKind::FileTooLarge.into());
+    }
+    let mut bytes = Vec::with_capacity(length as usize);
+    file.take(DiskResolver::DEFAULT_LIMIT).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
 impl Resolver for DiskResolver {
     fn read(&self, path: &str, from: &str) -> Result<Resolved, ResolveError> {
         let candidates = self.candidates(path, from);
@@ -107,39 +121,6 @@ fn ignoring_case(wanted: &Path) -> Option<PathBuf> {
     found.is_file().then_some(found)
 }
 
-/// Writes a file under a temporary name, syncs it and renames it.
-///
-/// # Errors
-/// What the system says; the old file is untouched then.
-pub fn write_atomically(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let directory = match path.parent() {
-        Some(d) if !d.as_os_str().is_empty() => d.to_path_buf(),
-        _ => PathBuf::from("."),
-    };
-    std::fs::create_dir_all(&directory)?;
-    let mut name = path.file_name().unwrap_or_default().to_os_string();
-    // The process number keeps two programs that write the same picture apart.
-    name.push(format!(".{}.tmp", std::process::id()));
-    let temporary = directory.join(name);
-    let written = write_synced(&temporary, bytes).and_then(|()| std::fs::rename(&temporary, path));
-    if written.is_err() {
-        // Best effort: the error that matters is the one being returned.
-        drop(std::fs::remove_file(&temporary));
-        return written;
-    }
-    // The rename itself must reach the disk; not every file system can sync a directory.
-    if let Ok(d) = File::open(&directory) {
-        drop(d.sync_all());
-    }
-    Ok(())
-}
-
-fn write_synced(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let mut file = File::create(path)?;
-    file.write_all(bytes)?;
-    file.sync_all()
-}
-
 /// Keeps built trees as files of a directory.
 #[derive(Clone, Debug)]
 pub struct DiskTreeStore {
@@ -156,7 +137,7 @@ impl DiskTreeStore {
         let mut name = String::with_capacity(2 * key.len() + 5);
         for byte in key {
             // Writing to a string cannot fail.
-            let _ = write!(name, "{byte:02x}");
+            let _ = std::fmt::Write::write_fmt(&mut name, format_args!("{byte:02x}"));
         }
         self.directory.join(name + ".tree")
     }
@@ -169,7 +150,7 @@ impl TreeStore for DiskTreeStore {
 
     fn store(&self, key: &[u8; 32], bytes: &[u8]) {
         // A cache that cannot be written costs time, nothing else.
-        drop(write_atomically(&self.path(key), bytes));
+        drop(write_atomically(&self.path(key), |file| file.write_all(bytes)));
     }
 }
 
@@ -254,21 +235,6 @@ mod tests {
         let resolver = DiskResolver { limit: 99, ..DiskResolver::new(vec![]) };
         let path = root.join("a.bin").display().to_string();
         assert_eq!(resolver.read(&path, "").unwrap_err(), ResolveError::TooLarge { size: 100, limit: 99 });
-        std::fs::remove_dir_all(root).unwrap();
-    }
-
-    #[test]
-    fn writing_replaces_as_a_whole_and_leaves_nothing_behind() {
-        let root = scratch("write");
-        let path = root.join("new/dir/picture.png");
-        write_atomically(&path, b"one").unwrap();
-        write_atomically(&path, b"two").unwrap();
-        assert_eq!(std::fs::read(&path).unwrap(), b"two");
-        assert_eq!(std::fs::read_dir(path.parent().unwrap()).unwrap().count(), 1);
-        // A directory in the way: the error is told, and no temporary file stays.
-        let blocked = root.join("new/dir");
-        assert!(write_atomically(&blocked, b"x").is_err());
-        assert_eq!(std::fs::read_dir(root.join("new")).unwrap().count(), 1);
         std::fs::remove_dir_all(root).unwrap();
     }
 }

@@ -3,7 +3,10 @@
 //! A [`Session`] renders a scene until it is halted; console, window, network slave and scripts are
 //! equal clients of it. Below this crate nothing starts a thread, reads a clock or touches a disk.
 
+pub mod atomic;
 pub mod disk;
+mod error_estimate;
+mod error_meter;
 mod gate;
 mod memory;
 mod options;
@@ -11,6 +14,7 @@ pub mod output;
 pub mod pool;
 pub mod preview;
 mod progress;
+pub mod saved;
 mod session;
 mod worker;
 

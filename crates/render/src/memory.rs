@@ -6,10 +6,10 @@ use indigo_film::{FilmSize, LayerKind, MasterFilm};
 /// is a sample.
 const DEVELOPED_PIXEL: u64 = 4 * size_of::<f32>() as u64 + 1;
 
-/// The least that rendering and saving a film takes: its sums, the copy of them that is saved, and that copy
-/// developed. What the workers hold comes on top, as far as they touch it.
-pub(crate) fn needed(size: FilmSize, kinds: impl IntoIterator<Item = LayerKind>) -> u64 {
-    2 * MasterFilm::bytes_needed(size, kinds) + DEVELOPED_PIXEL * size.internal_pixels() as u64
+/// The least that rendering and saving takes: the sums of so many films of one kind, the copy of one that is saved, and
+/// that copy developed. What the workers hold comes on top, as far as they touch it.
+pub(crate) fn needed(size: FilmSize, kinds: impl IntoIterator<Item = LayerKind>, films: u64) -> u64 {
+    (films + 1) * MasterFilm::bytes_needed(size, kinds) + DEVELOPED_PIXEL * size.internal_pixels() as u64
 }
 
 /// Bytes that the system can still give, where it says so: only Linux does, for itself and for the group of
@@ -36,8 +36,9 @@ mod tests {
     fn memory_is_counted_in_bytes() {
         let size = FilmSize::new(100, 50, 2).expect("a size");
         // 20,000 internal pixels: sums of four doubles, a count, both twice, and what is developed.
-        assert_eq!(needed(size, [LayerKind::PerPixel]), 20_000 * (2 * 40 + 17));
-        assert_eq!(needed(size, [LayerKind::PerPixel, LayerKind::PerScreen]), 20_000 * (2 * 72 + 17));
+        assert_eq!(needed(size, [LayerKind::PerPixel], 1), 20_000 * (2 * 40 + 17));
+        assert_eq!(needed(size, [LayerKind::PerPixel, LayerKind::PerScreen], 1), 20_000 * (2 * 72 + 17));
+        assert_eq!(needed(size, [LayerKind::PerPixel], 3), 20_000 * (4 * 40 + 17));
         assert_eq!(available_of("MemTotal: 9 kB\nMemAvailable:    2048 kB\n"), Some(2 << 20));
         assert_eq!(available_of("MemTotal: 9 kB\n"), None);
     }

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-/// When to stop by itself. Without either, a session runs for ever.
+/// When to stop by itself, at the first of these. Without any, a session runs for ever.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Halt {
     /// After this time of rendering.
@@ -11,6 +11,9 @@ pub struct Halt {
     /// what is rendered (over a whole picture, at this number exactly), Metropolis mutations with a unit of
     /// some thousands.
     pub samples_per_pixel: Option<u64>,
+    /// When the picture's relative error is estimated to be no more than this; see
+    /// [`Progress::relative_error`](crate::Progress::relative_error). Costs the memory of two more films.
+    pub relative_error: Option<f64>,
 }
 
 /// Options of a session.

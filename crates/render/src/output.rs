@@ -1,16 +1,16 @@
 //! Saving pictures: developed from a copy of the film, on a thread of their own.
 
-use crate::Progress;
-use crate::disk::write_atomically;
+use crate::atomic::{check_writable, write_atomically};
 use crate::pool::with_jobs;
-use indigo_film::FilmState;
+use indigo_film::{FilmRecord, FilmState, SavedFilm, igi};
 use indigo_imaging::{
     ImagingError, LinearImage, Metadata, Picture, RenderFacts, develop_image, exr, on_sensor, png,
     untonemapped,
 };
-use indigo_scene::Scene;
+use indigo_scene::Development;
+use std::fs::File;
+use std::io::{BufWriter, Write as _};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::thread::JoinHandle;
 
 /// Where pictures go.
@@ -34,6 +34,11 @@ impl OutputPaths {
     /// The EXR of the developed picture.
     pub fn tonemapped_exr(&self) -> PathBuf {
         self.sibling("_tonemapped.exr")
+    }
+
+    /// The film.
+    pub fn igi(&self) -> PathBuf {
+        self.sibling(".igi")
     }
 
     fn sibling(&self, ending: &str) -> PathBuf {
@@ -64,16 +69,14 @@ pub enum SaveError {
 /// What a picture is saved with besides the film.
 #[derive(Clone)]
 pub struct SaveJob {
-    /// The scene: how to develop, and what to write.
-    pub scene: Arc<Scene>,
+    /// How to develop, and what to write.
+    pub development: Development,
     /// Where to.
     pub paths: OutputPaths,
     /// Name, version and platform of the program.
     pub version: String,
-    /// Threads that render.
+    /// Threads that render or develop.
     pub threads: usize,
-    /// Seed of the render.
-    pub seed: u64,
 }
 
 impl SaveJob {
@@ -81,56 +84,83 @@ impl SaveJob {
     ///
     /// # Errors
     /// The first file that could not be written; the files before it are complete.
-    pub fn save(&self, film: &FilmState, progress: &Progress) -> Result<Vec<PathBuf>, SaveError> {
-        with_jobs(self.threads, || self.save_on_pool(film, progress))
+    pub fn save(&self, saved: &SavedFilm) -> Result<Vec<PathBuf>, SaveError> {
+        with_jobs(self.threads, || self.save_on_pool(saved))
     }
 
-    fn save_on_pool(&self, film: &FilmState, progress: &Progress) -> Result<Vec<PathBuf>, SaveError> {
-        let (scene, output) = (&self.scene, &self.scene.output);
-        let image = on_sensor(film.develop(), &scene.picture);
-        let metadata = self.metadata(progress);
-        let picture = develop_image(&image, &scene.picture);
-        let png = png::encode(&picture, &metadata, png::Depth::Eight)?;
-        let mut written = vec![write(&self.paths.png, &png)?];
+    fn save_on_pool(&self, saved: &SavedFilm) -> Result<Vec<PathBuf>, SaveError> {
+        let (settings, output) = (&self.development.picture, &self.development.output);
+        let mut written = vec![];
+        // First what cannot be made again.
+        if let (true, Some(record)) = (output.igi, &saved.record) {
+            written.push(write_film(&self.paths.igi(), &saved.film, record)?);
+        }
+        let image = on_sensor(saved.film.develop(), settings);
+        let metadata = self.metadata(saved);
+        let picture = develop_image(&image, settings);
+        let png = png::encode(&picture, &metadata, output.png)?;
+        written.push(write(&self.paths.png, &png)?);
         if output.untonemapped_exr {
-            let linear = untonemapped(&image, scene.picture.downsize, scene.picture.region);
+            let linear = untonemapped(&image, settings.downsize, settings.region);
             written.push(write(&self.paths.untonemapped_exr(), &exr::encode(&linear, &metadata)?)?);
         }
         if output.tonemapped_exr {
             let linear = as_linear(&picture);
-            written.push(write(&self.paths.tonemapped_exr(), &exr::encode(&linear, &metadata)?)?);
+            written
+                .push(write(&self.paths.tonemapped_exr(), &exr::encode_display_linear(&linear, &metadata)?)?);
         }
         Ok(written)
     }
 
-    fn metadata(&self, progress: &Progress) -> Metadata {
-        let scene = &self.scene;
-        let (size, transport) = (scene.film.size, &scene.transport);
+    /// Whether all files could be written.
+    ///
+    /// # Errors
+    /// The first file that could not.
+    pub fn check_writable(&self) -> Result<(), SaveError> {
+        let output = &self.development.output;
+        let wanted = [
+            (true, self.paths.png.clone()),
+            (output.igi, self.paths.igi()),
+            (output.untonemapped_exr, self.paths.untonemapped_exr()),
+            (output.tonemapped_exr, self.paths.tonemapped_exr()),
+        ];
+        for (_, path) in wanted.into_iter().filter(|(is_wanted, _)| *is_wanted) {
+            check_writable(&path).map_err(|source| SaveError::Write { path, source })?;
+        }
+        Ok(())
+    }
+
+    fn metadata(&self, saved: &SavedFilm) -> Metadata {
+        let Development { transport, picture, output, .. } = &self.development;
+        let size = saved.film.size;
+        let nothing = FilmRecord::default();
+        let record = saved.record.as_ref().unwrap_or(&nothing);
+        let metropolis = transport.metropolis;
         let mut metadata = RenderFacts {
             version: self.version.clone(),
-            scene_path: scene.output.scene_path.clone(),
+            scene_path: output.scene_path.clone(),
             width: size.width(),
             height: size.height(),
             super_sample_factor: size.super_sample(),
             bidirectional: transport.bidirectional,
-            metropolis: transport.metropolis.is_some(),
-            hybrid: transport.hybrid,
             // Without Metropolis sampling nothing is mutated: 0.
-            large_mutation_prob: transport.metropolis.map_or(0.0, |m| m.large_mutation_prob),
-            max_change: transport.metropolis.map_or(0.0, |m| f64::from(m.max_change)),
-            max_num_consec_rejections: transport
-                .metropolis
+            metropolis: metropolis.is_some(),
+            hybrid: transport.hybrid,
+            large_mutation_prob: metropolis.map_or(0.0, |m| m.large_mutation_prob),
+            max_change: metropolis.map_or(0.0, |m| f64::from(m.max_change)),
+            max_num_consec_rejections: metropolis
                 .map_or(0, |m| u32::try_from(m.max_consecutive_rejections).unwrap_or(u32::MAX)),
             max_depth: transport.max_depth,
             num_threads: self.threads as u32,
-            num_samples: progress.samples as f64,
-            elapsed_s: progress.elapsed.as_secs_f64(),
+            num_samples: record.samples as f64,
+            elapsed_s: record.elapsed_s,
         }
         .metadata();
-        metadata.set("seed", self.seed);
-        metadata.set("aperture_area", scene.picture.exposure.aperture_area);
-        metadata.set("lens_sensor_dist", scene.picture.exposure.lens_sensor_dist);
-        metadata.set("exposure_duration", scene.picture.exposure.duration);
+        let seeds: Vec<String> = record.runs.iter().map(|run| run.seed.to_string()).collect();
+        metadata.set("seed", seeds.join(" "));
+        metadata.set("aperture_area", picture.exposure.aperture_area);
+        metadata.set("lens_sensor_dist", picture.exposure.lens_sensor_dist);
+        metadata.set("exposure_duration", picture.exposure.duration);
         metadata
     }
 
@@ -138,11 +168,10 @@ impl SaveJob {
     ///
     /// # Errors
     /// Where the system gives no thread.
-    pub fn spawn(&self, film: FilmState, progress: Progress) -> Result<Saving, SaveError> {
+    pub fn spawn(&self, saved: SavedFilm) -> Result<Saving, SaveError> {
         let job = self.clone();
         let thread = std::thread::Builder::new().name("save".to_owned());
-        let handle =
-            thread.spawn(move || job.save(&film, &progress)).map_err(|e| SaveError::Thread(e.to_string()))?;
+        let handle = thread.spawn(move || job.save(&saved)).map_err(|e| SaveError::Thread(e.to_string()))?;
         Ok(Saving { handle })
     }
 }
@@ -170,7 +199,22 @@ impl Saving {
 }
 
 fn write(path: &Path, bytes: &[u8]) -> Result<PathBuf, SaveError> {
-    write_atomically(path, bytes).map_err(|source| SaveError::Write { path: path.to_path_buf(), source })?;
+    write_with(path, |file| file.write_all(bytes))
+}
+
+/// Writes a film with its record.
+///
+/// # Errors
+/// What the system says; a file that was there before is untouched then.
+pub fn write_film(path: &Path, film: &FilmState, record: &FilmRecord) -> Result<PathBuf, SaveError> {
+    write_with(path, |file| igi::write(file, film, record))
+}
+
+fn write_with(
+    path: &Path,
+    write: impl Fn(&mut BufWriter<&File>) -> std::io::Result<()>,
+) -> Result<PathBuf, SaveError> {
+    write_atomically(path, write).map_err(|source| SaveError::Write { path: path.to_path_buf(), source })?;
     Ok(path.to_path_buf())
 }
 
@@ -187,5 +231,6 @@ mod tests {
         let paths = OutputPaths::new("out/x.y.png");
         assert_eq!(paths.untonemapped_exr(), Path::new("out/x.y_untonemapped.exr"));
         assert_eq!(paths.tonemapped_exr(), Path::new("out/x.y_tonemapped.exr"));
+        assert_eq!(paths.igi(), Path::new("out/x.y.igi"));
     }
 }

@@ -5,7 +5,7 @@ use std::time::Duration;
 /// A session's progress at one moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
-    /// Samples taken since the session began.
+    /// Samples of the film: those of this session, and those that it went on with.
     pub samples: u64,
     /// Samples per output pixel.
     pub samples_per_pixel: f64,
@@ -17,6 +17,9 @@ pub struct Progress {
     pub left: Option<Duration>,
     /// Fraction of the work until the halting condition, if there is one.
     pub fraction: Option<f64>,
+    /// The last estimate of the picture's relative error, where [`Halt::relative_error`](crate::Halt::relative_error)
+    /// asks for it: the root mean square, over the pixels, of the luminance's error, over the mean luminance.
+    pub relative_error: Option<f64>,
 }
 
 /// Measures a rate over a sliding window, so that it follows changes of load but does not flicker.

@@ -1,11 +1,13 @@
 //! A running render.
 
+use crate::error_meter::ErrorMeter;
 use crate::gate::Gate;
 use crate::memory;
 use crate::options::{Halt, Options};
 use crate::progress::{Progress, RateMeter};
+use crate::saved::{blank_record, lines};
 use crate::worker::{self, OrderedMerge, Shared};
-use indigo_film::{FilmError, FilmSize, FilmState, MasterFilm};
+use indigo_film::{FilmError, FilmRecord, FilmSize, FilmState, MasterFilm, Mismatch, Run, SavedFilm};
 use indigo_scene::Scene;
 use indigo_transport::driver::Driver;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -18,6 +20,8 @@ use std::time::{Duration, Instant};
 pub enum HaltReason {
     /// The number of samples per pixel was reached.
     Samples,
+    /// The estimated error is small enough.
+    Error,
     /// The time was up.
     Time,
     /// Somebody called [`Session::stop`].
@@ -63,6 +67,9 @@ pub enum SessionError {
         /// Bytes.
         available: u64,
     },
+    /// The film to go on with is of another picture.
+    #[error("the film cannot be gone on with: {}", lines(.0))]
+    Mismatch(Vec<Mismatch>),
 }
 
 /// A scene being rendered by worker threads.
@@ -71,6 +78,9 @@ pub enum SessionError {
 /// moves the epochs on and tests the halting conditions. Dropping a session stops it.
 pub struct Session {
     shared: Arc<Shared>,
+    first_unit: u64,
+    /// What the film held before this session.
+    before: FilmRecord,
     workers: Vec<JoinHandle<()>>,
     halt: Halt,
     epoch: Duration,
@@ -79,6 +89,7 @@ pub struct Session {
     paused_for: Duration,
     last_epoch: Instant,
     rate: RateMeter,
+    error: ErrorMeter,
     reason: Option<HaltReason>,
 }
 
@@ -88,28 +99,66 @@ impl Session {
     /// # Errors
     /// Where the system gives no threads, or not the memory.
     pub fn start(scene: Arc<Scene>, options: &Options) -> Result<Self, SessionError> {
-        let driver = Driver::new(&scene, options.seed);
-        let size = scene.film.size;
-        check_memory(size, memory::needed(size, driver.layers().iter().map(|l| l.0)), memory::available())?;
-        let film = MasterFilm::new(size, driver.layers())?;
+        let nothing = blank_record(&scene, "");
+        Self::begin(scene, options, nothing, None)
+    }
+
+    /// Goes on with a film. Its samples count towards [`Halt::samples_per_pixel`], its time does not count
+    /// towards [`Halt::time`]. The film's own seed goes on where it ended.
+    ///
+    /// # Errors
+    /// Where the film is of another picture, with all that differs; where the system gives no threads, or not the
+    /// memory.
+    pub fn go_on(scene: Arc<Scene>, options: &Options, saved: &SavedFilm) -> Result<Self, SessionError> {
+        let Some(record) = &saved.record else {
+            return Err(SessionError::Mismatch(vec![FilmError::Foreign.into()]));
+        };
+        let differences = blank_record(&scene, "").differences(record);
+        if !differences.is_empty() {
+            return Err(SessionError::Mismatch(differences));
+        }
+        Self::begin(scene, options, record.clone(), Some(&saved.film))
+    }
+
+    fn begin(
+        scene: Arc<Scene>,
+        options: &Options,
+        before: FilmRecord,
+        film_before: Option<&FilmState>,
+    ) -> Result<Self, SessionError> {
+        let first_unit = before.first_fresh_unit(options.seed);
+        let mut driver = Driver::going_on(&scene, options.seed, first_unit);
+        let estimates_error = options.halt.relative_error.is_some();
+        if estimates_error {
+            driver = driver.in_halves();
+        }
+        let (size, count) = (scene.film.size, if estimates_error { 3 } else { 1 });
+        let kinds = driver.layers().iter().map(|l| l.0);
+        check_memory(size, memory::needed(size, kinds, count), memory::available())?;
+        let films = (0..count).map(|_| MasterFilm::new(size, driver.layers()));
+        let films = films.collect::<Result<Vec<_>, _>>()?;
         let threads = options.threads.clamp(1, driver.most_workers());
-        let passes = options.halt.samples_per_pixel.unwrap_or(u64::MAX);
+        if let Some(state) = film_before {
+            films[0].merge_state(state).map_err(|e| SessionError::Mismatch(vec![e.into()]))?;
+        }
         let shared = Arc::new(Shared {
-            unit_limit: driver.units(passes),
+            unit_limit: unit_limit(&driver, &options.halt, first_unit, before.samples),
             scene,
             driver,
-            film,
-            next_unit: AtomicU64::new(0),
-            samples: AtomicU64::new(0),
+            films,
+            next_unit: AtomicU64::new(first_unit),
+            samples: AtomicU64::new(before.samples),
             epoch: AtomicU64::new(0),
             gate: Gate::default(),
             failure: Mutex::new(None),
-            ordered: options.deterministic.then(OrderedMerge::default),
+            ordered: options.deterministic.then(|| OrderedMerge::from(first_unit)),
             seed: options.seed,
         });
         let now = Instant::now();
         let mut session = Self {
             shared,
+            first_unit,
+            before,
             workers: vec![],
             halt: options.halt,
             epoch: options.epoch,
@@ -118,6 +167,7 @@ impl Session {
             paused_for: Duration::ZERO,
             last_epoch: now,
             rate: RateMeter::default(),
+            error: ErrorMeter::new(options.threads),
             reason: None,
         };
         // They wait for each other: those that were at work already would leave no time to start the rest.
@@ -168,6 +218,13 @@ impl Session {
         if self.last_epoch.elapsed() >= self.epoch {
             self.last_epoch = Instant::now();
             self.shared.epoch.fetch_add(1, Ordering::Relaxed);
+            if let Some(wanted) = self.halt.relative_error
+                && self.error.update(&self.shared).is_some_and(|error| error <= wanted)
+                && self.reason.is_none()
+            {
+                self.reason = Some(HaltReason::Error);
+                self.shared.gate.stop();
+            }
         }
     }
 
@@ -214,14 +271,32 @@ impl Session {
 
     /// A copy of the film as it has been handed over so far.
     pub fn snapshot(&self) -> FilmState {
-        self.shared.film.snapshot()
+        let mut films = self.shared.films.iter().map(MasterFilm::snapshot);
+        let first = films.next().unwrap_or_else(|| unreachable!("a session has a film"));
+        films.fold(first, |mut sum, film| {
+            sum.merge_state(&film).unwrap_or_else(|e| unreachable!("films of one session: {e}"));
+            sum
+        })
+    }
+
+    /// The same with its record, ready to be saved.
+    pub fn saved(&self, program: &str) -> SavedFilm {
+        let film = self.snapshot();
+        let mut record = self.before.clone();
+        program.clone_into(&mut record.program);
+        // Read after the sums were copied, so that no unit in them is beyond it.
+        let end = self.shared.next_unit.load(Ordering::Relaxed).min(self.shared.unit_limit);
+        record.add_run(Run { seed: self.shared.seed, first: self.first_unit, end });
+        record.samples = (film.samples_per_pixel() * film.size.pixels() as f64).round() as u64;
+        record.elapsed_s += self.elapsed().as_secs_f64();
+        SavedFilm { film, record: Some(record) }
     }
 
     /// How far the session is.
     pub fn progress(&mut self) -> Progress {
         let samples = self.shared.samples.load(Ordering::Relaxed);
         let elapsed = self.elapsed();
-        let rate = self.rate.update(elapsed, samples);
+        let rate = self.rate.update(elapsed, samples - self.before.samples);
         let spp = samples as f64 / self.shared.driver.pixels() as f64;
         let by_samples = self.halt.samples_per_pixel.map(|n| {
             let total = n as f64 * self.shared.driver.pixels() as f64;
@@ -240,6 +315,7 @@ impl Session {
             elapsed,
             left: next.and_then(|n| Duration::try_from_secs_f64(n.1).ok()),
             fraction: next.map(|n| n.0.clamp(0.0, 1.0)),
+            relative_error: self.error.last(),
         }
     }
 }
@@ -250,6 +326,14 @@ fn check_memory(size: FilmSize, needed: u64, available: Option<u64>) -> Result<(
         Some(available) if needed > available => Err(SessionError::Memory { size, needed, available }),
         _ => Ok(()),
     }
+}
+
+/// The unit after the last one that a halting condition leaves to do.
+fn unit_limit(driver: &Driver, halt: &Halt, first: u64, samples_before: u64) -> u64 {
+    halt.samples_per_pixel.map_or(u64::MAX, |passes| {
+        let wanted = u128::from(driver.pixels()) * u128::from(passes);
+        first.saturating_add(driver.units_of(wanted.saturating_sub(samples_before.into())))
+    })
 }
 
 impl Drop for Session {

@@ -13,7 +13,9 @@ use std::sync::{Mutex, PoisonError};
 pub(crate) struct Shared {
     pub scene: std::sync::Arc<Scene>,
     pub driver: Driver,
-    pub film: MasterFilm,
+    /// The film; with an estimate of the error also one for each half of the session's samples, and the first holds
+    /// only what was there before.
+    pub films: Vec<MasterFilm>,
     /// The next unit that nobody does yet.
     pub next_unit: AtomicU64,
     /// Units at and beyond this one are not done.
@@ -29,20 +31,38 @@ pub(crate) struct Shared {
     pub seed: u64,
 }
 
+impl Shared {
+    /// The film that a unit's samples go to.
+    fn film_of(&self, unit: u64) -> usize {
+        if self.films.len() == 1 { 0 } else { 1 + self.driver.half_of(unit) }
+    }
+}
+
 /// Merges deltas in the order of their units.
-#[derive(Default)]
 pub(crate) struct OrderedMerge {
-    waiting: Mutex<(u64, BTreeMap<u64, FilmDelta>)>,
+    queue: Mutex<Queue>,
+}
+
+/// The unit whose turn it is, and those after it that are done: the number of their film, and what they gathered.
+struct Queue {
+    next: u64,
+    done: BTreeMap<u64, (usize, FilmDelta)>,
 }
 
 impl OrderedMerge {
-    fn hand_over(&self, film: &MasterFilm, unit: u64, delta: FilmDelta) {
-        let mut guard = self.waiting.lock().unwrap_or_else(PoisonError::into_inner);
-        let (next, waiting) = &mut *guard;
-        waiting.insert(unit, delta);
-        while let Some(delta) = waiting.remove(next) {
-            merge(film, &delta);
-            *next += 1;
+    /// With the first unit.
+    pub fn from(first: u64) -> Self {
+        Self { queue: Mutex::new(Queue { next: first, done: BTreeMap::new() }) }
+    }
+
+    fn hand_over(&self, films: &[MasterFilm], unit: u64, film: usize, delta: FilmDelta) {
+        let mut queue = self.queue.lock().unwrap_or_else(PoisonError::into_inner);
+        queue.done.insert(unit, (film, delta));
+        loop {
+            let next = queue.next;
+            let Some((film, delta)) = queue.done.remove(&next) else { break };
+            merge(&films[film], &delta);
+            queue.next += 1;
         }
     }
 }
@@ -54,12 +74,12 @@ fn merge(film: &MasterFilm, delta: &FilmDelta) {
 
 /// Does units until told to stop or until there are no more.
 pub(crate) fn work(shared: &Shared) {
-    let mut delta = shared.film.delta();
+    let mut deltas: Vec<FilmDelta> = shared.films.iter().map(MasterFilm::delta).collect();
     let mut tracer = shared.driver.tracer();
     let mut seen_epoch = shared.epoch.load(Ordering::Relaxed);
     loop {
         // In order, everything has been handed over already.
-        shared.gate.rest(|| hand_over(shared, &mut delta));
+        shared.gate.rest(|| hand_over(shared, &mut deltas));
         if shared.gate.is_stopped() {
             break;
         }
@@ -67,27 +87,30 @@ pub(crate) fn work(shared: &Shared) {
         if unit >= shared.unit_limit {
             break;
         }
-        let Some(samples) = render_unit(shared, unit, &mut tracer, &mut delta) else { break };
+        let film = shared.film_of(unit);
+        let Some(samples) = render_unit(shared, unit, &mut tracer, &mut deltas[film]) else { break };
         shared.samples.fetch_add(samples, Ordering::Relaxed);
         if let Some(ordered) = &shared.ordered {
-            ordered.hand_over(&shared.film, unit, delta.take());
+            ordered.hand_over(&shared.films, unit, film, deltas[film].take());
         } else {
             let epoch = shared.epoch.load(Ordering::Relaxed);
             if epoch != seen_epoch {
                 seen_epoch = epoch;
-                hand_over(shared, &mut delta);
+                hand_over(shared, &mut deltas);
             }
         }
     }
     if shared.ordered.is_none() {
-        hand_over(shared, &mut delta);
+        hand_over(shared, &mut deltas);
     }
 }
 
-fn hand_over(shared: &Shared, delta: &mut FilmDelta) {
-    if !delta.is_empty() {
-        merge(&shared.film, delta);
-        delta.clear();
+fn hand_over(shared: &Shared, deltas: &mut [FilmDelta]) {
+    for (film, delta) in shared.films.iter().zip(deltas) {
+        if !delta.is_empty() {
+            merge(film, delta);
+            delta.clear();
+        }
     }
 }
 

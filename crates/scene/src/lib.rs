@@ -5,6 +5,7 @@
 //! What is wrong goes to a sink with its place; reading never stops at the first fault.
 
 pub mod codes;
+mod identity;
 mod load;
 mod lower;
 mod probe;
@@ -12,6 +13,9 @@ mod scene;
 pub mod schema;
 mod settings;
 
-pub use load::{LoadOptions, Loaded, Override, load};
-pub use scene::{FilmSettings, MetropolisSettings, OutputSettings, Scene, SceneStats, TransportSettings};
+pub use load::{LoadOptions, Loaded, LoadedDevelopment, Override, load, load_development};
+pub use scene::{
+    Development, FilmSettings, Identity, MetropolisSettings, OutputSettings, Scene, SceneStats,
+    TransportSettings,
+};
 pub use settings::{Listed, Origin, Settings};

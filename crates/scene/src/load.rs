@@ -1,7 +1,8 @@
 //! Loading: read, bind, lower, and gather everything that is wrong.
 
+use crate::identity::{self, Witness};
 use crate::lower;
-use crate::scene::Scene;
+use crate::scene::{Development, Scene};
 use crate::schema::SCENE;
 use crate::schema::settings::RENDERER_SETTINGS;
 use crate::settings::{Origin, Settings};
@@ -50,26 +51,79 @@ pub struct Loaded {
     pub sink: Sink,
 }
 
+/// What developing a film takes, as far as it could be loaded.
+pub struct LoadedDevelopment {
+    /// The part of the scene, if nothing was wrong with it.
+    pub development: Option<Development>,
+    /// All files that were read.
+    pub sources: SourceMap,
+    /// Everything that was found.
+    pub sink: Sink,
+}
+
+/// The elements of a scene and its settings, bound.
+struct Bound {
+    /// Hash of the elements.
+    hash: [u8; 32],
+    root: Node,
+    settings: Settings,
+}
+
 /// Loads a scene. Everything that is wrong is in the result's sink; a scene comes with no errors only.
 pub fn load(path: &str, options: &LoadOptions) -> Loaded {
     let mut sources = SourceMap::default();
     let mut sink = Sink::new();
-    let root = read_scene(path, options.resolver, &mut sources, &mut sink, &options.limits);
-    let Some(root) = root else { return Loaded { scene: None, settings: None, sources, sink } };
+    let Some(bound) = read_and_bind(path, options, &mut sources, &mut sink) else {
+        return Loaded { scene: None, settings: None, sources, sink };
+    };
+    let witness = Witness::new(options.resolver);
+    let witnessed = LoadOptions { resolver: &witness, ..*options };
+    let context = lower::Context {
+        options: &witnessed,
+        development: options.resolver,
+        sources: &mut sources,
+        sink: &mut sink,
+    };
+    let mut scene = lower::lower(&bound.root, &bound.settings, path, context).filter(|_| !sink.has_errors());
+    if let Some(scene) = &mut scene {
+        scene.identity.hash = witness.identity(bound.hash);
+    }
+    Loaded { scene, settings: Some(bound.settings), sources, sink }
+}
+
+/// Loads only what developing a film takes: no mesh file is read and no tree built. Faults elsewhere in the
+/// scene are not looked for.
+pub fn load_development(path: &str, options: &LoadOptions) -> LoadedDevelopment {
+    let mut sources = SourceMap::default();
+    let mut sink = Sink::new();
+    let development = read_and_bind(path, options, &mut sources, &mut sink).and_then(|bound| {
+        let context =
+            lower::Context { options, development: options.resolver, sources: &mut sources, sink: &mut sink };
+        lower::development(&bound.root, &bound.settings, path, context)
+    });
+    LoadedDevelopment { development: development.filter(|_| !sink.has_errors()), sources, sink }
+}
+
+fn read_and_bind(
+    path: &str,
+    options: &LoadOptions,
+    sources: &mut SourceMap,
+    sink: &mut Sink,
+) -> Option<Bound> {
+    let root = read_scene(path, options.resolver, sources, sink, &options.limits)?;
+    let hash = identity::hash_elements(&root);
     let nowhere = root.span;
-    let root = bind(root, &SCENE, &mut sink);
+    let root = bind(root, &SCENE, sink);
     let mut layers = vec![];
-    if let Some(node) = command_line(options.overrides, &mut sources, &mut sink) {
+    if let Some(node) = command_line(options.overrides, sources, sink) {
         layers.push((Origin::CommandLine, node));
     }
     let (scene_settings, root) = take_settings(root);
     layers.extend(scene_settings.map(|node| (Origin::Scene, node)));
-    if let Some(node) = options.inifile.and_then(|ini| read_inifile(ini, options, &mut sources, &mut sink)) {
+    if let Some(node) = options.inifile.and_then(|ini| read_inifile(ini, options, sources, sink)) {
         layers.push((Origin::IniFile, node));
     }
-    let settings = Settings::new(layers, nowhere);
-    let scene = lower::lower(&root, &settings, path, options, &mut sources, &mut sink);
-    Loaded { scene: scene.filter(|_| !sink.has_errors()), settings: Some(settings), sources, sink }
+    Some(Bound { hash, root, settings: Settings::new(layers, nowhere) })
 }
 
 /// The settings become a layer of their own, apart from the rest of the scene.

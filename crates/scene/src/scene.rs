@@ -1,9 +1,9 @@
 //! A scene that can be traced.
 
 use indigo_camera::Camera;
-use indigo_film::{FilmFilter, FilmSize};
+use indigo_film::{FilmFilter, FilmSize, Filter};
 use indigo_geom::{Accel, SurfacePoint};
-use indigo_imaging::PictureSettings;
+use indigo_imaging::{PictureSettings, png};
 use indigo_light::LightTable;
 use indigo_math::Real;
 use indigo_scatter::{Interface, Material, MaterialContext, Medium, MediumStack};
@@ -43,6 +43,30 @@ pub struct Scene {
     pub picture: PictureSettings,
     /// What is written, and when.
     pub output: OutputSettings,
+    /// What films of this scene have in common.
+    pub identity: Identity,
+}
+
+/// What a film must have been rendered from to be of the same picture.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Identity {
+    /// Hash of all elements and files that the film depends on.
+    pub hash: [u8; 32],
+    /// Name and value of the settings that decide what the film converges to, or which layers it has.
+    pub settings: Vec<(String, String)>,
+}
+
+/// All of a scene that making and saving a picture of its film takes.
+#[derive(Clone, Debug)]
+pub struct Development {
+    /// How light was transported, as pictures tell.
+    pub transport: TransportSettings,
+    /// Resolution that the scene asks for.
+    pub size: FilmSize,
+    /// How the picture is made from the film.
+    pub picture: PictureSettings,
+    /// What is written.
+    pub output: OutputSettings,
 }
 
 /// How light is transported.
@@ -75,6 +99,8 @@ pub struct FilmSettings {
     /// Resolution.
     pub size: FilmSize,
     /// Splat filter.
+    pub splat: Filter,
+    /// The splat filter, prepared for this size.
     pub filter: FilmFilter,
     /// Columns and rows of the output picture that are rendered: first and last (excluded).
     pub region: Option<[[u32; 2]; 2]>,
@@ -92,6 +118,10 @@ pub struct OutputSettings {
     pub tonemapped_exr: bool,
     /// Whether a picture of the aperture's shape is written.
     pub aperture_preview: bool,
+    /// Whether the film itself is written.
+    pub igi: bool,
+    /// How the PNG holds its pixels.
+    pub png: png::Format,
     /// How often pictures are written.
     pub image_save_period: f64,
     /// Rendering time after which to halt.
@@ -139,6 +169,16 @@ impl Scene {
         choice: Real,
     ) -> MaterialContext<'a> {
         MaterialContext { textures: &self.textures, materials: &self.materials, lambda, interface, choice }
+    }
+
+    /// What making and saving a picture of its film takes.
+    pub fn development(&self) -> Development {
+        Development {
+            transport: self.transport,
+            size: self.film.size,
+            picture: self.picture.clone(),
+            output: self.output.clone(),
+        }
     }
 
     /// How much the scene holds.

@@ -2,8 +2,8 @@
 
 use crate::schema::filter::{GAUSSIAN, MN_CUBIC};
 use crate::schema::settings::RENDERER_SETTINGS;
-use indigo_decl::{Element, Field, Node, Value, bind, codes, report_unread};
-use indigo_diag::{Diagnostic, Severity, Sink, Span, Spanned};
+use indigo_decl::{Element, Field, Node, Value, bind, report_unread};
+use indigo_diag::{Severity, Sink, Span, Spanned};
 
 /// Which layer a setting's value comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -103,6 +103,12 @@ impl Settings {
         self.deciding(field).1.real(field)
     }
 
+    /// A text or choice.
+    pub fn text(&self, field: &str) -> Spanned<String> {
+        let node = self.deciding(field).1;
+        Spanned::new(node.text(field).value.clone(), node.span_of(field))
+    }
+
     /// A block.
     pub fn node(&self, field: &str) -> Option<&Node> {
         self.deciding(field).1.node(field)
@@ -112,32 +118,6 @@ impl Settings {
     pub fn disregard(&self, field: &str) {
         for (_, node) in &self.layers {
             node.disregard_field(field);
-        }
-    }
-
-    /// Handles a switch whose `true` nothing renders yet.
-    ///
-    /// Asked for by name it is an error. On by default it is named in a warning, with what is done
-    /// instead, if `instead` says so.
-    pub(crate) fn refuse_true(&self, field: &str, instead: Option<&str>, sink: &mut Sink) {
-        if !self.bool(field) {
-            return;
-        }
-        if self.origin(field) != Origin::Default {
-            sink.push(
-                Diagnostic::error(
-                    codes::NOT_RENDERED,
-                    self.span_of(field),
-                    format!("<{field}> is read but not yet rendered by this version"),
-                )
-                .hint(format!("set <{field}> to false")),
-            );
-        } else if let Some(instead) = instead {
-            sink.push(Diagnostic::warning(
-                crate::codes::DEFAULT_NOT_RENDERED,
-                None,
-                format!("<{field}> is on by default but not yet rendered by this version: {instead}"),
-            ));
         }
     }
 

@@ -2,7 +2,6 @@
 //! place, and settings with the layer that they come from.
 
 use indigo_decl::{ResolveError, Resolved, Resolver};
-use indigo_diag::Severity;
 use indigo_geom::NoStore;
 use indigo_igs::Limits;
 use indigo_imaging::png::Depth;
@@ -255,20 +254,8 @@ fn whatever_is_not_rendered_yet_is_named_where_it_stands() {
 }
 
 #[test]
-fn switches_that_nothing_renders_are_refused_by_name() {
-    let with = |from: &str, to: &str| {
-        let l = loaded(&format!("{HEAD}{CAMERA}</scene>").replace(from, to));
-        let summary: Vec<(Severity, &str)> =
-            l.sink.diagnostics().iter().map(|d| (d.severity, d.code)).collect();
-        summary
-    };
+fn a_plane_is_refused_where_light_is_traced_from_both_ends() {
     let bidirectional = "<bidirectional>false</bidirectional>";
-    assert_eq!(with(bidirectional, ""), []);
-    for setting in ["save_igi", "watermark"] {
-        let on = format!("{bidirectional}<{setting}>true</{setting}>");
-        assert_eq!(with(bidirectional, &on), [(Severity::Error, "E0205")], "{setting}");
-        assert_eq!(with(bidirectional, &on.replace("true", "false")), [], "{setting}");
-    }
     let plane =
         "<plane><normal>0 0 1</normal><dist>0</dist><material_name>white</material_name></plane></scene>";
     // Also where it is on by default.
@@ -611,4 +598,29 @@ fn every_code_has_an_example() {
             assert!(found.contains(&code.code), "{}: {found:?}", code.code);
         }
     }
+}
+
+/// What is asked for of the picture and its files reaches the scene, and coverage is left to camera samples.
+#[test]
+fn settings_of_the_picture_reach_the_scene() {
+    let with = |settings: &str| {
+        let text = format!("{HEAD}{CAMERA}</scene>").replace(
+            "<bidirectional>false</bidirectional>",
+            &format!("<bidirectional>true</bidirectional>{settings}"),
+        );
+        loaded(&text).scene.expect("a scene without faults")
+    };
+    let plain = with("");
+    let (output, picture) = (&plain.output, &plain.picture);
+    assert!(!(output.igi || output.png.dithered || picture.watermark || picture.foreground_alpha));
+    assert!(plain.transport.bidirectional);
+    let more = with(
+        "<save_igi>true</save_igi><dithering>true</dithering><png_bits>16</png_bits><watermark>true</watermark>",
+    );
+    assert!(more.output.igi && more.output.png.dithered && more.picture.watermark);
+    assert_ne!(more.output.png.depth, plain.output.png.depth);
+    assert_eq!(more.identity, plain.identity, "the film is the same");
+    let alpha = with("<render_foreground_alpha>true</render_foreground_alpha>");
+    assert!(alpha.picture.foreground_alpha);
+    assert!(!alpha.transport.bidirectional && alpha.transport.metropolis.is_none());
 }

@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use crate::process::{self, command};
 
-/// What the tests import. OpenEXR, the reference implementation, reads back our EXR files. Pinned: a
-/// new version may change what a test sees only by a commit here.
-const TEST_PACKAGES: &[&str] = &["OpenEXR==3.4.4", "numpy==2.3.5"];
+/// What the tests import. OpenEXR, the reference implementation, reads back our EXR files; colour-science works
+/// out how colours are shown. Pinned: a new version may change what a test sees only by a commit here.
+const TEST_PACKAGES: &[&str] = &["OpenEXR==3.4.4", "numpy==2.3.5", "colour-science==0.4.7"];
 
 /// The environment of the tests, made on first use; gives its Python.
 pub fn for_tests() -> Result<PathBuf, String> {

@@ -173,12 +173,140 @@ fn the_same_seed_gives_the_same_picture() {
 
 /// A file stands where the directory ought to be: even the system's owner cannot write there.
 #[test]
-fn a_picture_that_cannot_be_written_is_a_failure_that_says_so() {
-    let bench = Workbench::new(&format!("{QUIET}<image_save_period>0.05</image_save_period>"));
+fn a_picture_that_cannot_be_written_is_told_before_rendering() {
+    let bench = Workbench::new(QUIET);
     bench.write("wall", "not a directory");
-    let ran = bench.run(&["scene.igs", "-halt", "1", "-o", "wall/a.png"]);
+    // Nothing would end this render.
+    let ran = bench.run(&["scene.igs", "-o", "wall/a.png"]);
     assert_eq!(ran.status, Some(1), "{ran:?}");
-    let warned = ran.stderr.find("warning: cannot write wall/a.png");
-    let failed = ran.stderr.find("error: cannot write wall/a.png");
-    assert!(warned.is_some() && warned < failed, "said while rendering, and at the end: {}", ran.stderr);
+    assert!(ran.stderr.contains("error: cannot write wall/a.png"), "{}", ran.stderr);
+}
+
+/// The directory turns into a file while the program renders.
+#[test]
+fn a_save_that_fails_is_tried_again_and_is_a_failure_in_the_end() {
+    let bench = Workbench::new(&format!("{QUIET}<image_save_period>0.02</image_save_period>"));
+    let mut running = bench.start(&["scene.igs", "-halt", "2", "-o", "place/a.png"]);
+    running.wait_for(&bench.path("place/a.png"));
+    while std::fs::remove_dir_all(bench.path("place")).is_err() {}
+    bench.write("place", "not a directory");
+    assert_eq!(running.finish(), Some(1));
+    let said = std::fs::read_to_string(bench.path("stderr")).expect("what it said");
+    let warned = said.find("warning: cannot write place/a.png");
+    let failed = said.find("error: cannot write place/a.png");
+    assert!(warned.is_some() && warned < failed, "said while rendering, and at the end: {said}");
+}
+
+/// A quarter of a second holds many periods of a hundredth.
+#[test]
+fn pictures_are_saved_as_often_as_was_asked_for() {
+    use std::collections::HashSet;
+    let bench = Workbench::new(&format!("{QUIET}<image_save_period>0.01</image_save_period>"));
+    let mut running = bench.start(&["scene.igs", "-halt", "2", "-o", "a.png", "-t", "1"]);
+    let mut seen = HashSet::new();
+    let mut status = None;
+    while status.is_none() {
+        let modified = std::fs::metadata(bench.path("a.png")).and_then(|m| m.modified());
+        seen.extend(modified.ok());
+        std::thread::sleep(std::time::Duration::from_millis(2));
+        status = running.0.try_wait().expect("a child of ours");
+    }
+    // With a quarter of a second between them there would be eight, and one at the end.
+    assert!(seen.len() > 12, "{} pictures", seen.len());
+}
+
+#[test]
+fn lines_of_progress_come_as_often_as_was_asked_for() {
+    let lines = |period: &str| {
+        let bench = Workbench::new(&format!("{QUIET}<display_period>{period}</display_period>"));
+        let ran = bench.run(&["scene.igs", "-halt", "1.5", "-o", "a.png", "-t", "1"]);
+        assert_eq!(ran.status, Some(0), "{ran:?}");
+        ran.stderr.lines().filter(|l| l.contains(" spp ")).count()
+    };
+    // One at the start and one at the end.
+    assert_eq!(lines("60"), 2);
+    let often = lines("0.1");
+    assert!((6..=20).contains(&often), "{often} lines");
+}
+
+fn image(bench: &Workbench, name: &str) -> indigo_formats::image::Pixels {
+    let bytes = std::fs::read(bench.path(name)).expect("the picture");
+    indigo_formats::image::decode(name, &bytes).expect("a picture").pixels
+}
+
+/// Each of these settings makes another file of the same film, and each does what it says.
+#[test]
+fn settings_of_the_picture_have_their_effects() {
+    use indigo_formats::image::Pixels;
+    let settings = format!("{QUIET}<save_igi>true</save_igi><width>200</width><height>150</height>");
+    let bench = Workbench::new(&settings);
+    assert_eq!(bench.run(&["scene.igs", "-haltspp", "4", "-o", "a.png"]).status, Some(0));
+    let text = std::fs::read_to_string(bench.path("scene.igs")).expect("the scene");
+    let developed = |more: &str| {
+        bench.write("b.igs", &text.replace("<save_igi>true</save_igi>", more));
+        let ran = bench.run(&["--tonemap", "b.igs", "a.igi", "b.png"]);
+        assert_eq!(ran.status, Some(0), "{more}: {ran:?}");
+        image(&bench, "b.png")
+    };
+    let Pixels::U8(plain) = developed("") else { panic!("8 bits by default") };
+    let Pixels::U16(deep) = developed("<png_bits>16</png_bits>") else { panic!("16 bits were asked for") };
+    assert!(plain.iter().zip(&deep).all(|(a, b)| (i32::from(*a) * 257 - i32::from(*b)).abs() <= 129));
+    let Pixels::U8(dithered) = developed("<dithering>true</dithering>") else { panic!("8 bits") };
+    assert!(plain != dithered && plain.iter().zip(&dithered).all(|(a, b)| a.abs_diff(*b) <= 1));
+    let Pixels::U8(marked) = developed("<watermark>true</watermark>") else { panic!("8 bits") };
+    let changed: Vec<usize> =
+        (0..200 * 150).filter(|i| plain[3 * i..3 * i + 3] != marked[3 * i..3 * i + 3]).collect();
+    assert!(
+        changed.len() > 100 && changed.iter().all(|i| i % 200 >= 100 && i / 200 >= 135),
+        "{}",
+        changed.len()
+    );
+    let Pixels::U8(region) =
+        developed("<render_region><x1>20</x1><y1>30</y1><x2>120</x2><y2>90</y2></render_region>")
+    else {
+        panic!("8 bits")
+    };
+    for i in 0..200 * 150 {
+        let is_inside = (20..120).contains(&(i % 200)) && (30..90).contains(&(i / 200));
+        assert_eq!(region[3 * i..3 * i + 3] != [0, 0, 0], is_inside, "pixel {i}");
+    }
+}
+
+/// White where the sphere is, black where the surroundings are seen, grey along the edge alone; with light paths and
+/// Markov chains asked for, too.
+#[test]
+fn foreground_alpha_is_smooth_in_every_mode() {
+    use indigo_formats::image::Pixels;
+    for mode in [
+        "<metropolis>false</metropolis><bidirectional>false<",
+        "<metropolis>true</metropolis><bidirectional>true<",
+    ] {
+        let bench =
+            Workbench::new(&format!("{QUIET}<render_foreground_alpha>true</render_foreground_alpha>"));
+        let text = std::fs::read_to_string(bench.path("scene.igs")).expect("the scene");
+        bench.write("m.igs", &text.replace("<metropolis>false</metropolis><bidirectional>false<", mode));
+        let ran = bench.run(&["m.igs", "-haltspp", "64", "-o", "a.png"]);
+        assert_eq!(ran.status, Some(0), "{ran:?}");
+        let Pixels::U8(values) = image(&bench, "a.png") else { panic!("8 bits") };
+        let count = |test: &dyn Fn(u8) -> bool| values.iter().filter(|v| test(**v)).count() / 3;
+        let (black, white) = (count(&|v| v == 0), count(&|v| v == 255));
+        let grey = 40 * 30 - black - white;
+        // A sphere of radius 1 at distance 4: 7.75 rows of pixels from its centre to its edge, times the splat filter.
+        assert!(
+            (500..1100).contains(&black) && (100..350).contains(&white) && (30..250).contains(&grey),
+            "{black} {white} {grey}"
+        );
+    }
+}
+
+#[test]
+fn an_estimated_error_ends_a_render() {
+    let bench = Workbench::new(QUIET);
+    let ran = bench.run(&["scene.igs", "-halterror", "0.05", "-o", "a.png"]);
+    assert_eq!(ran.status, Some(0), "{ran:?}");
+    assert_picture(&bench.path("a.png"), 40, 30);
+    let last = ran.stderr.lines().rfind(|l| l.contains(" spp ")).expect("a line of progress");
+    let error = last.split("error ").nth(1).and_then(|rest| rest.split('%').next()).expect("the error");
+    assert!(error.parse::<f64>().expect("a number") <= 5.0, "{last}");
+    assert_eq!(bench.run(&["scene.igs", "-halterror", "-1"]).status, Some(2));
 }

@@ -1,6 +1,7 @@
 //! The console program, run as users run it.
 
 mod files;
+mod films;
 mod messages;
 #[cfg(unix)]
 mod signals;

@@ -1,7 +1,6 @@
 //! Ctrl-C, and sudden death.
 
 use super::workbench::{Running, Workbench, assert_picture};
-use std::path::Path;
 use std::process::Command;
 use std::time::Duration;
 
@@ -34,7 +33,7 @@ fn a_second_interrupt_leaves_at_once() {
     let bench = Workbench::new(large);
     let mut running = bench.start(&["scene.igs", "-o", "a.png", "-t", "1"]);
     // The first save has begun, so interrupts are caught by now.
-    let temporary = format!("a.png.{}.tmp", running.0.id());
+    let temporary = format!("a.png.{}.indigo.tmp", running.0.id());
     running.wait_for(&bench.path(&temporary));
     interrupt(&running);
     std::thread::sleep(Duration::from_millis(50));
@@ -42,28 +41,34 @@ fn a_second_interrupt_leaves_at_once() {
     assert_eq!(running.finish(), Some(130));
 }
 
-/// Twenty-four deaths at any moment between and in saves: there is always a whole picture, and each
-/// death leaves one unfinished file at most.
+/// Deaths at any moment between and in saves: there are always a whole picture and a whole film, each
+/// death leaves one unfinished file at most, and the next save clears it away.
 #[test]
-fn sudden_death_leaves_a_whole_picture() {
-    let bench = Workbench::new(&format!("{OFTEN}<width>300</width><height>225</height>"));
-    let mut unfinished = 0;
-    for death in 0..24u64 {
+fn sudden_death_leaves_a_whole_picture_and_film() {
+    const DEATHS: u64 = 40;
+    let settings = format!("{OFTEN}<save_igi>true</save_igi><width>300</width><height>225</height>");
+    let bench = Workbench::new(&settings);
+    let unfinished = |bench: &Workbench| -> Vec<String> {
+        bench.files().into_iter().filter(|n| n.contains(".indigo.")).collect()
+    };
+    for death in 0..DEATHS {
+        let left = unfinished(&bench);
         let mut running = bench.start(&["scene.igs", "-o", "a.png", "-t", "1"]);
         if death == 0 {
             running.wait_for(&bench.path("a.png"));
         } else {
-            // Until the next save has begun: the one before is on the disk.
-            let temporary = format!("a.png.{}.tmp", running.0.id());
-            running.wait_for(&bench.path(&temporary));
+            // Until the next save has begun, with the film: the one before is on the disk.
+            running.wait_for(&bench.path(&format!("a.igi.{}.indigo.tmp", running.0.id())));
+            assert!(left.iter().all(|name| !bench.path(name).exists()), "{left:?} is still there");
         }
-        std::thread::sleep(Duration::from_millis(death * 37 % 24 * 4));
+        // A save takes about 50 ms: spread the deaths over it.
+        std::thread::sleep(Duration::from_millis(death * 37 % DEATHS * 2));
         running.0.kill().expect("a child of ours");
         running.0.wait().expect("a child of ours");
         assert_picture(&bench.path("a.png"), 300, 225);
-        let left =
-            bench.files().iter().filter(|n| Path::new(n).extension().is_some_and(|e| e == "tmp")).count();
-        assert!(left <= unfinished + 1, "{:?}", bench.files());
-        unfinished = left;
+        let film = std::fs::read(bench.path("a.igi")).expect("the film");
+        let film = indigo_film::igi::read(&film).expect("a whole film");
+        assert_eq!(film.film.size.width(), 300);
+        assert!(unfinished(&bench).len() <= 1, "{:?}", bench.files());
     }
 }

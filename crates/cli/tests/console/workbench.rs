@@ -92,6 +92,23 @@ impl Workbench {
         Ran::from(command.output().expect("a shell"))
     }
 
+    /// Runs to the end with files limited to so many blocks of 512 bytes; a write beyond is an error, as on a
+    /// full disk, not a signal.
+    #[cfg(unix)]
+    pub fn run_limited(&self, blocks: u64, arguments: &[&str]) -> Ran {
+        let program = env!("CARGO_BIN_EXE_indigo_console");
+        let mut command = self.command(&[]);
+        let mut shell = Command::new("sh");
+        shell.arg("-c").arg(format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$0\" \"$@\"")).arg(program);
+        shell.args(arguments).current_dir(&self.directory).stdin(Stdio::null());
+        command.get_envs().for_each(|(name, value)| match value {
+            Some(value) => drop(shell.env(name, value)),
+            None => drop(shell.env_remove(name)),
+        });
+        command.stdin(Stdio::null());
+        Ran::from(shell.output().expect("a shell starts"))
+    }
+
     /// Starts, with what it says going to files.
     pub fn start(&self, arguments: &[&str]) -> Running {
         let file = |name: &str| std::fs::File::create(self.path(name)).expect("the test's own directory");

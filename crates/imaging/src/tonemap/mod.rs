@@ -1,14 +1,19 @@
 //! Tone mapping: from the light on the sensor to what a display can show.
 
+mod camera;
 mod linear;
 mod reinhard;
 
+pub use camera::Response;
+
 use crate::PictureSettings;
+use camera::Camera;
 use linear::Linear;
 use reinhard::Reinhard;
+use std::sync::Arc;
 
 /// How light becomes display-linear values.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum ToneMapping {
     /// scale · H, where H is the white-balanced exposure in lux·s.
     Linear {
@@ -26,12 +31,22 @@ pub enum ToneMapping {
         /// The scaled luminance that becomes white, unless the picture's largest is less.
         burn: f64,
     },
+    /// Exposure and speed of the film, through the response of film or sensor.
+    Camera {
+        /// The response.
+        response: Arc<Response>,
+        /// Each step of 1 doubles the exposure.
+        ev_adjust: f64,
+        /// ISO speed, above 0.
+        film_iso: f64,
+    },
 }
 
 /// A tone mapping with its numbers worked out for one film.
 pub(crate) enum ToneMapper {
     Linear(Linear),
     Reinhard(Reinhard),
+    Camera(Camera),
 }
 
 impl ToneMapper {
@@ -40,10 +55,14 @@ impl ToneMapper {
     where
         R: rayon::iter::IndexedParallelIterator<Item = &'a [[f32; 4]]>,
     {
-        match settings.tone_mapping {
-            ToneMapping::Linear { scale } => Self::Linear(Linear::new(scale, settings)),
+        match &settings.tone_mapping {
+            ToneMapping::Linear { scale } => Self::Linear(Linear::new(*scale, settings)),
             ToneMapping::Reinhard { pre_scale, post_scale, burn } => {
-                Self::Reinhard(Reinhard::new([pre_scale, post_scale, burn], settings.white_balance, rows))
+                let parameters = [*pre_scale, *post_scale, *burn];
+                Self::Reinhard(Reinhard::new(parameters, settings.white_balance, rows))
+            }
+            ToneMapping::Camera { response, ev_adjust, film_iso } => {
+                Self::Camera(Camera::new(response, *ev_adjust, *film_iso, settings))
             }
         }
     }
@@ -53,6 +72,7 @@ impl ToneMapper {
         match self {
             Self::Linear(linear) => linear.map_row(from, to),
             Self::Reinhard(reinhard) => reinhard.map_row(from, to),
+            Self::Camera(camera) => camera.map_row(from, to),
         }
     }
 }

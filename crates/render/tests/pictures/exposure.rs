@@ -4,14 +4,12 @@ use super::common::judge::{NITS_PER_UNIFORM, assert_is};
 use super::common::shapes::{Mesh, mesh_light};
 use super::common::text::{background, camera, flat_camera, grey, scene_file, settings, uniform};
 use super::common::{Region, film, measure_regions, scene};
+use indigo_film::SavedFilm;
 use indigo_formats::image::{Image, Pixels, decode};
-use indigo_render::Progress;
 use indigo_render::output::{OutputPaths, SaveJob};
 use indigo_scene::Scene;
 use indigo_testkit::stats::Moments;
 use std::path::PathBuf;
-use std::sync::Arc;
-use std::time::Duration;
 
 /// Spectral radiance of the surroundings, W m^-3 sr^-1.
 const RADIANCE: f64 = 4.0e4;
@@ -36,21 +34,13 @@ fn scratch(name: &str) -> PathBuf {
 }
 
 /// The untonemapped EXR that saving a scene's film writes to the disk.
-fn saved_exr(scene: Scene, passes: u64, name: &str) -> Image {
-    let film = film(&scene, 5, passes);
+fn saved_exr(scene: &Scene, passes: u64, name: &str) -> Image {
+    let film = film(scene, 5, passes);
     let directory = scratch(name);
     let paths = OutputPaths::new(directory.join("x.png"));
     let exr = paths.untonemapped_exr();
-    let job = SaveJob { scene: Arc::new(scene), paths, version: "test".to_owned(), threads: 1, seed: 5 };
-    let progress = Progress {
-        samples: 0,
-        samples_per_pixel: 0.0,
-        samples_per_second: 0.0,
-        elapsed: Duration::ZERO,
-        left: None,
-        fraction: None,
-    };
-    let written = job.save(&film, &progress).expect("saving works");
+    let job = SaveJob { development: scene.development(), paths, version: "test".to_owned(), threads: 1 };
+    let written = job.save(&SavedFilm { film, record: None }).expect("saving works");
     assert!(written.contains(&exr), "{written:?}");
     let image = decode("x.exr", &std::fs::read(&exr).expect("the file is there")).expect("it is an EXR");
     std::fs::remove_dir_all(directory).expect("the test's own files");
@@ -84,7 +74,7 @@ fn without_vignetting_the_exr_holds_the_luminance_in_every_pixel() {
         [("camera", "<vignetting>false</vignetting>", ""), ("settings", "", "<vignetting>false</vignetting>")]
     {
         let save = format!("<save_untonemapped_exr>true</save_untonemapped_exr>{in_settings}");
-        let image = saved_exr(surroundings(in_camera, &save), 1024, name);
+        let image = saved_exr(&surroundings(in_camera, &save), 1024, name);
         assert_eq!((image.width, image.height, image.channels), (SIDE as u32, SIDE as u32, 3));
         // 1024 samples of the wavelength in low-discrepancy order leave far less than 0.1%.
         for y in luminances(&image) {
@@ -96,7 +86,7 @@ fn without_vignetting_the_exr_holds_the_luminance_in_every_pixel() {
 #[test]
 fn with_vignetting_the_exr_holds_the_luminance_on_the_axis() {
     let scene = surroundings("", "<save_untonemapped_exr>true</save_untonemapped_exr>");
-    let image = saved_exr(scene, 1024, "axis");
+    let image = saved_exr(&scene, 1024, "axis");
     let centre = luminances(&image)[SIDE / 2 * SIDE + SIDE / 2];
     let expected = RADIANCE * NITS_PER_UNIFORM * mean_cos4([[8, 9], [8, 9]]);
     assert!((centre / expected - 1.0).abs() < 1e-3, "{centre} instead of {expected}");
@@ -113,7 +103,7 @@ fn a_super_sampled_exr_holds_the_same_luminance() {
         flat_camera([0.0; 3], [0.0, 1.0, 0.0], 1.0),
         background(&uniform(RADIANCE)),
     ]));
-    let all = Moments::of(luminances(&saved_exr(scene, 576, "super")));
+    let all = Moments::of(luminances(&saved_exr(&scene, 576, "super")));
     assert!((all.mean() / (RADIANCE * NITS_PER_UNIFORM) - 1.0).abs() < 1e-3, "{}", all.mean());
 }
 

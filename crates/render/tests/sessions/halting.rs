@@ -8,7 +8,7 @@ use indigo_render::{Event, Halt, HaltReason, Options, Session};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-const ENDLESS: Halt = Halt { time: None, samples_per_pixel: None };
+const ENDLESS: Halt = Halt { time: None, samples_per_pixel: None, relative_error: None };
 
 #[test]
 fn every_pixel_gets_exactly_the_samples_that_were_asked_for() {
@@ -77,7 +77,7 @@ fn a_thousand_threads_start_and_stop() {
 #[test]
 fn time_halts_and_stop_stops() {
     let scene = small_scene(1, "");
-    let halt = Halt { time: Some(Duration::from_millis(100)), samples_per_pixel: None };
+    let halt = Halt { time: Some(Duration::from_millis(100)), ..Halt::default() };
     let (film, reason, progress) = run(&scene, &Options { halt, deterministic: false, ..options(2, 0) });
     assert_eq!(reason, HaltReason::Time);
     assert!(progress.elapsed >= Duration::from_millis(100));

@@ -7,6 +7,7 @@ mod common;
 
 mod determinism;
 mod halting;
+mod resuming;
 
 use common::text::{background, flat_camera, grey, scene_file, settings, uniform};
 use indigo_film::FilmState;
@@ -21,9 +22,16 @@ const PATIENCE: Duration = Duration::from_mins(1);
 /// A sphere on a floor under a lamp and a sky: paths of all lengths, and noise. 48 by 48 output
 /// pixels: more than one tile.
 fn small_scene(super_sample: u32, more_settings: &str) -> Arc<Scene> {
-    let text = settings(48, more_settings)
-        .replace("<super_sample_factor>1", &format!("<super_sample_factor>{super_sample}"));
-    Arc::new(common::scene(&scene_file(&[
+    small_scene_with(super_sample, |text| {
+        text.replace("<cache_trees>", &format!("{more_settings}<cache_trees>"))
+    })
+}
+
+/// The same with its text changed.
+fn small_scene_with(super_sample: u32, change: impl Fn(String) -> String) -> Arc<Scene> {
+    let text =
+        settings(48, "").replace("<super_sample_factor>1", &format!("<super_sample_factor>{super_sample}"));
+    let text = scene_file(&[
         text,
         flat_camera([0.0, -4.0, 1.5], [0.0, 4.0, -1.0], 0.5),
         grey("grey", 0.6),
@@ -35,7 +43,8 @@ fn small_scene(super_sample: u32, more_settings: &str) -> Arc<Scene> {
             uniform(1e5)
         ),
         background(&uniform(1e4)),
-    ])))
+    ]);
+    Arc::new(common::scene(&change(text)))
 }
 
 /// A sphere and a lamp in the air: for every technique and driver.
@@ -58,7 +67,7 @@ fn options(threads: usize, samples_per_pixel: u64) -> Options {
     Options {
         threads,
         seed: 11,
-        halt: Halt { time: None, samples_per_pixel: Some(samples_per_pixel) },
+        halt: Halt { samples_per_pixel: Some(samples_per_pixel), ..Halt::default() },
         epoch: Duration::from_millis(5),
         deterministic: true,
     }

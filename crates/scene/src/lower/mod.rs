@@ -19,10 +19,10 @@ mod portal_probe;
 
 use crate::codes;
 use crate::load::LoadOptions;
-use crate::scene::{MetropolisSettings, OutputSettings, Scene, TransportSettings};
+use crate::scene::{Development, Identity, MetropolisSettings, OutputSettings, Scene, TransportSettings};
 use crate::settings::Settings;
 use geometry::Geometry;
-use indigo_decl::{Node, report_unread};
+use indigo_decl::{Node, ResolveError, Resolved, Resolver, report_unread};
 use indigo_diag::{Diagnostic, Severity, Sink, SourceMap, Span};
 use indigo_geom::{Accel, BuildOptions};
 use indigo_math::Vec3d;
@@ -32,10 +32,12 @@ use meshes::MeshTable;
 use std::sync::Arc;
 
 /// What all parts of lowering share.
-struct Context<'a> {
-    options: &'a LoadOptions<'a>,
-    sources: &'a mut SourceMap,
-    sink: &'a mut Sink,
+pub(crate) struct Context<'a> {
+    pub options: &'a LoadOptions<'a>,
+    /// Where files come from that only the development of the picture looks at.
+    pub development: &'a dyn Resolver,
+    pub sources: &'a mut SourceMap,
+    pub sink: &'a mut Sink,
 }
 
 impl Context<'_> {
@@ -46,8 +48,24 @@ impl Context<'_> {
     }
 
     /// The bytes of a file named in the scene; `None` after reporting why not.
-    fn read(&mut self, path: &str, span: Span) -> Option<indigo_decl::Resolved> {
-        match self.options.resolver.read(path, self.sources.name(span.source)) {
+    fn read(&mut self, path: &str, span: Span) -> Option<Resolved> {
+        let found = self.options.resolver.read(path, self.sources.name(span.source));
+        self.or_report(found, path, span)
+    }
+
+    /// The same for a file that decides only how the film is developed.
+    fn read_for_development(&mut self, path: &str, span: Span) -> Option<Resolved> {
+        let found = self.development.read(path, self.sources.name(span.source));
+        self.or_report(found, path, span)
+    }
+
+    fn or_report(
+        &mut self,
+        found: Result<Resolved, ResolveError>,
+        path: &str,
+        span: Span,
+    ) -> Option<Resolved> {
+        match found {
             Ok(found) => Some(found),
             Err(error) => {
                 self.sink.push(Diagnostic::error(
@@ -62,15 +80,7 @@ impl Context<'_> {
 }
 
 /// Lowers a scene. `None` where an error, now in the sink, leaves nothing to trace.
-pub(crate) fn lower(
-    root: &Node,
-    settings: &Settings,
-    path: &str,
-    options: &LoadOptions,
-    sources: &mut SourceMap,
-    sink: &mut Sink,
-) -> Option<Scene> {
-    let mut context = Context { options, sources, sink };
+pub(crate) fn lower(root: &Node, settings: &Settings, path: &str, mut context: Context) -> Option<Scene> {
     let scene = build(root, settings, path, &mut context);
     root.mark_used();
     report_unread(root, Severity::Error, context.sink);
@@ -78,10 +88,27 @@ pub(crate) fn lower(
     scene
 }
 
+/// Lowers only what developing a film takes. `None` where an error, now in the sink, keeps it from that.
+pub(crate) fn development(
+    root: &Node,
+    settings: &Settings,
+    path: &str,
+    mut context: Context,
+) -> Option<Development> {
+    let transport = transport(settings);
+    let film = picture::film(settings, context.sink);
+    let output = picture::output(settings, path);
+    let node = find_camera(root, context.sink);
+    let camera = node.and_then(|c| camera::parameters(c, settings, film.as_ref(), &mut context));
+    let picture = picture::picture(root, node.zip(camera.as_ref()), settings, &mut context);
+    Some(Development { transport, size: film?.size, picture: picture?, output })
+}
+
 fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) -> Option<Scene> {
     let transport = transport(settings);
     let film = picture::film(settings, context.sink);
-    let output = picture::output(settings, context.sink, path);
+    let output = picture::output(settings, path);
+    let decisive = film.as_ref().map(|film| picture::decisive(settings, film, &transport));
     let camera_node = find_camera(root, context.sink);
     if camera_node.is_none() {
         camera::settings_without_camera(settings);
@@ -107,7 +134,7 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
     meshes.disregard_unused();
     materials.disregard_unused();
 
-    let picture = picture::picture(root, camera_node.zip(camera.as_ref()), settings, context.sink);
+    let picture = picture::picture(root, camera_node.zip(camera.as_ref()), settings, context);
     let threshold = usize::try_from(settings.int("bih_tri_threshold").value).unwrap_or(usize::MAX);
     let caching = settings.bool("cache_trees");
     // A light that is there but wrong, or not rendered, has its own message.
@@ -158,6 +185,7 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
         film: film?,
         picture: picture?,
         output: OutputSettings { aperture_preview, ..output },
+        identity: Identity { hash: [0; 32], settings: decisive? },
     };
     scene.find_starting_media(&lamps);
     Some(scene)
@@ -190,12 +218,14 @@ fn transport(settings: &Settings) -> TransportSettings {
             settings.disregard(field);
         }
     }
-    TransportSettings {
-        max_depth: u32::try_from(settings.int("max_depth").value).unwrap_or(u32::MAX),
-        bidirectional: settings.bool("bidirectional"),
-        metropolis,
-        hybrid,
+    let max_depth = u32::try_from(settings.int("max_depth").value).unwrap_or(u32::MAX);
+    let bidirectional = settings.bool("bidirectional");
+    if settings.bool("render_foreground_alpha") {
+        // What hides the background is known from the first hit, and only samples with a pixel of their own
+        // can tell of it.
+        return TransportSettings { max_depth: 0, bidirectional: false, metropolis: None, hybrid: false };
     }
+    TransportSettings { max_depth, bidirectional, metropolis, hybrid }
 }
 
 /// An empty file, for resources that could not be read.

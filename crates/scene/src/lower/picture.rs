@@ -1,14 +1,17 @@
 //! Film, picture and output.
 
+use super::Context;
 use super::camera::Unfocused;
 use crate::codes;
-use crate::scene::{FilmSettings, OutputSettings};
+use crate::scene::{FilmSettings, OutputSettings, TransportSettings};
 use crate::settings::Settings;
 use indigo_decl::Node;
 use indigo_diag::{Diagnostic, Sink};
 use indigo_film::{FilmFilter, FilmSize, Filter};
-use indigo_imaging::{Bloom, Exposure, PictureSettings, Region, ToneMapping, WhiteBalance};
+use indigo_formats::response;
+use indigo_imaging::{Bloom, Exposure, PictureSettings, Region, Response, ToneMapping, WhiteBalance, png};
 use indigo_spectrum::illuminant;
+use std::sync::Arc;
 
 /// The tone mapping of a scene that has none.
 const DEFAULT_TONE_MAPPING: ToneMapping =
@@ -26,7 +29,7 @@ pub(super) fn film(settings: &Settings, sink: &mut Sink) -> Option<FilmSettings>
         .ok()?;
     let region =
         region(settings, size, sink).map(|r| [[r.start()[0], r.end()[0]], [r.start()[1], r.end()[1]]]);
-    let filter = FilmFilter::new(filter, size)
+    let prepared = FilmFilter::new(filter, size)
         .map_err(|e| {
             sink.push(Diagnostic::error(
                 codes::PICTURE_SIZE,
@@ -35,7 +38,36 @@ pub(super) fn film(settings: &Settings, sink: &mut Sink) -> Option<FilmSettings>
             ));
         })
         .ok()?;
-    Some(FilmSettings { size, filter, region })
+    Some(FilmSettings { size, splat: filter, filter: prepared, region })
+}
+
+/// Name and value of the settings that decide what the film converges to, or which layers it has.
+pub(super) fn decisive(
+    settings: &Settings,
+    film: &FilmSettings,
+    transport: &TransportSettings,
+) -> Vec<(String, String)> {
+    let size = film.size;
+    let region = film.region.map_or_else(|| "the whole".to_owned(), |[x, y]| format!("{x:?} {y:?}"));
+    // Only Metropolis sampling looks at it.
+    let rejections = transport.metropolis.map_or(0, |m| m.max_consecutive_rejections);
+    let by_rays = settings.bool("aperture_diffraction") && !settings.bool("post_process_diffraction");
+    let values = [
+        ("width", size.width().to_string()),
+        ("height", size.height().to_string()),
+        ("super_sample_factor", size.super_sample().to_string()),
+        ("render_region", region),
+        ("splat_filter", film.splat.to_string()),
+        ("bidirectional", transport.bidirectional.to_string()),
+        ("metropolis", transport.metropolis.is_some().to_string()),
+        ("hybrid", transport.hybrid.to_string()),
+        ("max_depth", transport.max_depth.to_string()),
+        ("max_num_consec_rejections", rejections.to_string()),
+        ("ray_origin_nudge_distance", settings.real("ray_origin_nudge_distance").to_string()),
+        ("vignetting", settings.bool("vignetting").to_string()),
+        ("diffraction of rays", by_rays.to_string()),
+    ];
+    values.map(|(name, value)| (name.to_owned(), value)).to_vec()
 }
 
 fn region(settings: &Settings, size: FilmSize, sink: &mut Sink) -> Option<Region> {
@@ -75,12 +107,12 @@ pub(super) fn picture(
     root: &Node,
     camera: Option<(&Node, &Unfocused)>,
     settings: &Settings,
-    sink: &mut Sink,
+    context: &mut Context,
 ) -> Option<PictureSettings> {
-    let tone_mapping = tone_mapping(root, sink);
+    let tone_mapping = tone_mapping(root, context);
+    let sink = &mut *context.sink;
     let downsize = filter(settings, "downsize_filter", sink);
     let foreground_alpha = settings.bool("render_foreground_alpha");
-    settings.refuse_true("watermark", None, sink);
     let (camera, opening) = camera?;
     let white = camera.text("white_balance");
     let Some(xy) = illuminant::white_point(&white.value) else {
@@ -102,6 +134,7 @@ pub(super) fn picture(
         let [x, y] = f.region?;
         Region::new([x[0], y[0]], [x[1], y[1]], f.size).ok()
     });
+    let watermark = settings.bool("watermark");
     Some(PictureSettings {
         diffraction: opening.filter(),
         bloom: bloom(camera),
@@ -111,6 +144,7 @@ pub(super) fn picture(
         exposure,
         foreground_alpha,
         region,
+        watermark,
     })
 }
 
@@ -119,9 +153,9 @@ fn bloom(camera: &Node) -> Option<Bloom> {
     Some(Bloom { weight: node.real("weight"), radius: node.real("radius") })
 }
 
-fn tone_mapping(root: &Node, sink: &mut Sink) -> ToneMapping {
+fn tone_mapping(root: &Node, context: &mut Context) -> ToneMapping {
     let Some(node) = root.node("tonemapping") else {
-        sink.push(
+        context.sink.push(
             Diagnostic::warning(
                 codes::NO_TONEMAPPING,
                 root.span,
@@ -138,14 +172,39 @@ fn tone_mapping(root: &Node, sink: &mut Sink) -> ToneMapping {
             post_scale: t.real("post_scale"),
             burn: t.real("burn"),
         },
+        Some(t) if t.block.name == "camera" => ToneMapping::Camera {
+            response: Arc::new(response(t, context).unwrap_or_else(Response::display)),
+            ev_adjust: t.real("ev_adjust"),
+            film_iso: t.real("film_iso"),
+        },
         // Left unread, and so reported.
         _ => DEFAULT_TONE_MAPPING,
     }
 }
 
+/// The response curves of a camera; `None` where none are named, or after reporting what is wrong with them.
+fn response(camera: &Node, context: &mut Context) -> Option<Response> {
+    let path = camera.text("response_function_path");
+    if path.value.is_empty() {
+        return None;
+    }
+    let found = context.read_for_development(&path.value, path.span)?;
+    let curves = response::read(&found.bytes).map_err(|error| {
+        let message = format!("{} is no file of camera response curves: {error}", found.path);
+        context.sink.push(Diagnostic::error(codes::BAD_FILE, path.span, message));
+    });
+    let curves = curves.ok()?;
+    // What was read has been checked for all that is asked of curves here.
+    Response::new([0, 1, 2].map(|c: usize| (&*curves[c].irradiance, &*curves[c].brightness)))
+}
+
+fn png(settings: &Settings) -> png::Format {
+    let depth = if settings.text("png_bits").value == "16" { png::Depth::Sixteen } else { png::Depth::Eight };
+    png::Format { depth, dithered: settings.bool("dithering") }
+}
+
 /// What is written, and when.
-pub(super) fn output(settings: &Settings, sink: &mut Sink, scene_path: &str) -> OutputSettings {
-    settings.refuse_true("save_igi", None, sink);
+pub(super) fn output(settings: &Settings, scene_path: &str) -> OutputSettings {
     // Only network slaves look at it.
     settings.disregard("frame_upload_period");
     let positive = |field: &str| Some(settings.real(field)).filter(|v| *v > 0.0);
@@ -156,6 +215,8 @@ pub(super) fn output(settings: &Settings, sink: &mut Sink, scene_path: &str) -> 
         tonemapped_exr: settings.bool("save_tonemapped_exr"),
         // The camera knows.
         aperture_preview: false,
+        igi: settings.bool("save_igi"),
+        png: png(settings),
         image_save_period: settings.real("image_save_period"),
         halt_time: positive("halt_time"),
         halt_samples_per_pixel: positive("halt_samples_per_pixel"),

@@ -71,7 +71,7 @@ pub static RENDERER_SETTINGS: Block = Block::new(
         flag(
             "save_tonemapped_exr",
             "false",
-            "Whether an EXR picture of the tone-mapped colours is saved beside the PNG.",
+            "Whether an EXR picture of the tone-mapped colours, linear on the display, is saved beside the PNG.",
         ),
         flag(
             "save_igi",
@@ -115,7 +115,12 @@ pub static RENDERER_SETTINGS: Block = Block::new(
             "The picture is rendered this many times larger in both directions and then made smaller, which \
              smooths bright edges. Memory grows with its square.",
         ),
-        real("display_period", "10", "How often the picture on the screen is renewed.")
+        real(
+            "display_period",
+            "10",
+            "How often the picture on the screen is renewed; the console prints a line of progress as often, unless it \
+             renews its line on a terminal.",
+        )
             .unit("s")
             .range(Range::Above(0.0)),
         real(
@@ -126,7 +131,23 @@ pub static RENDERER_SETTINGS: Block = Block::new(
         )
         .unit("m")
         .range(Range::AtLeast(0.0)),
-        flag("watermark", "false", "Whether the logo is drawn into the lower right corner."),
+        flag(
+            "watermark",
+            "false",
+            "Whether the name of the program is drawn into the lower right corner of the PNG and of the tone-mapped EXR.",
+        ),
+        Field::new(
+            "png_bits",
+            Kind::Choice(&["8", "16"]),
+            Presence::Default("8"),
+            "Bits of each colour component in the PNG.",
+        ),
+        flag(
+            "dithering",
+            "false",
+            "Whether each component in the PNG is one of the two nearest codes by chance, so that smooth gradients \
+             have no bands, instead of always the nearest.",
+        ),
         flag("cache_trees", "true", "Whether the trees of meshes are kept on disk for the next time."),
         flag("aperture_diffraction", "true", "Whether light is diffracted by the aperture of the camera."),
         flag(
@@ -144,13 +165,14 @@ pub static RENDERER_SETTINGS: Block = Block::new(
             "render_region",
             Kind::Block(&RENDER_REGION),
             Presence::Optional,
-            "Renders only a part of the picture.",
+            "Renders only a part of the picture, which is otherwise black.",
         ),
         flag(
             "render_foreground_alpha",
             "false",
             "Whether the picture shows only what hides the background: white where there is something, black \
-             where the surroundings are seen.",
+             where the surroundings are seen, and grey in between along edges. Rendered by camera rays alone, \
+             whatever `metropolis`, `hybrid`, `bidirectional` and `max_depth` say.",
         ),
         Field::new(
             "splat_filter",
@@ -214,7 +236,6 @@ const LATER: &[Later] = &[
     Later::new("depth_pass", "2.0"),
     Later::new("shadow_pass", "3.0"),
     Later::new("merging", "3.0"),
-    Later::new("dithering", "3.0"),
     Later::new("gpu", "3.0"),
     Later::new("gpu_max_depth", "4.0"),
     Later::new("batched", "3.0"),

@@ -64,9 +64,10 @@ pub static CAMERA: Block = Block::new(
         Field::new(
             "response_function_path",
             Kind::Path,
-            Presence::Required,
+            Presence::Optional,
             "A file of response curves as in the DoRF database, beside the scene or in the resource directory, such \
-             as `data/camera response functions/dscs315.txt`.",
+             as `data/camera_response_functions/dslr_s_curve.txt`. Without it, or where it is empty, the picture \
+             shows what the sensor gathers.",
         ),
         Field::new(
             "ev_adjust",
@@ -78,14 +79,15 @@ pub static CAMERA: Block = Block::new(
             "film_iso",
             Kind::Real,
             Presence::Required,
-            "Speed of the film: twice the speed, twice the brightness.",
+            "Speed of the film: twice the speed, twice the brightness. A channel saturates at 78 / `film_iso` lux seconds \
+             (ISO 12232).",
         )
         .range(Range::Above(0.0)),
     ],
 )
 .with_example(
     "<camera>
-    <response_function_path>data/camera response functions/dscs315.txt</response_function_path>
+    <response_function_path>data/camera_response_functions/film_soft.txt</response_function_path>
     <ev_adjust>0</ev_adjust>
     <film_iso>100</film_iso>
 </camera>",

@@ -24,6 +24,8 @@ pub struct Independent {
     is_bidirectional: bool,
     /// The film's layer of camera samples; that of splats follows.
     layer: usize,
+    /// Whether every other round through the internal pixels is independent of the one before.
+    pub(super) is_halved: bool,
 }
 
 impl Independent {
@@ -40,6 +42,28 @@ impl Independent {
             events,
             is_bidirectional: scene.transport.bidirectional,
             layer,
+            is_halved: false,
+        }
+    }
+
+    /// Which half a unit belongs to: whole rounds through the internal pixels, so that both cover all of them.
+    pub(super) fn half_of(&self, unit: u64) -> usize {
+        (unit / self.units_per_pass() / self.cells() % 2) as usize
+    }
+
+    /// Internal pixels of an output pixel.
+    fn cells(&self) -> u64 {
+        u64::from(self.region.size.super_sample()).pow(2)
+    }
+
+    /// Seed and number of the point of an internal pixel's sequence that a pass takes. Halves have seeds of their own,
+    /// other than that of a render as a whole: a film may be gone on with either way.
+    fn point(&self, pass: u64) -> (u64, u32) {
+        let round = pass / self.cells();
+        if self.is_halved {
+            (rng::key(&[self.seed, round % 2]), (round / 2) as u32)
+        } else {
+            (self.seed, round as u32)
         }
     }
 
@@ -90,8 +114,8 @@ impl Independent {
         let size = self.region.size;
         let [x, y] = self.internal_pixel(pixel, pass);
         let stream = u64::from(y) << 32 | u64::from(x);
-        let cells = u64::from(size.super_sample()).pow(2);
-        let mut numbers = SobolSample::new(self.seed, stream, (pass / cells) as u32);
+        let (seed, index) = self.point(pass);
+        let mut numbers = SobolSample::new(seed, stream, index);
         let [u0, u1, ..] = numbers.block(Block::FILM);
         let on_film = self.filter.sample(x, y, [u0, u1]);
         let position = Vec2::new(

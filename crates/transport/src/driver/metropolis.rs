@@ -34,6 +34,8 @@ pub struct Metropolis {
     region: Region,
     filter: FilmFilter,
     seed: u64,
+    /// The first unit of this start of the chains.
+    first: u64,
     events: Events,
     settings: MetropolisSettings,
     layer: usize,
@@ -65,10 +67,11 @@ struct State {
 }
 
 impl Metropolis {
-    /// For a scene, the seed of all its randomness, the paths to render and the film's layer for them.
+    /// For a scene, the seed of all its randomness and the first unit, the paths to render and the film's layer
+    /// for them.
     pub(super) fn new(
         scene: &Scene,
-        seed: u64,
+        [seed, first]: [u64; 2],
         events: Events,
         settings: MetropolisSettings,
         layer: usize,
@@ -77,11 +80,17 @@ impl Metropolis {
             region: Region::of(scene),
             filter: scene.film.filter.clone(),
             seed,
+            first,
             events,
             settings,
             layer,
             chains: (0..CHAINS).map(|_| Mutex::default()).collect(),
         }
+    }
+
+    /// Which half a unit belongs to: that of its chain.
+    pub(super) fn half_of(&self, unit: u64) -> usize {
+        ((unit - self.first) % CHAINS % 2) as usize
     }
 
     /// Does a unit: adds its splats to `delta`, and says how many mutations they were.
@@ -92,8 +101,10 @@ impl Metropolis {
         tracer: &mut Tracer,
         delta: &mut FilmDelta,
     ) -> u64 {
-        let (number, turn) = (unit % CHAINS, unit / CHAINS);
-        let mut run = Run { driver: self, scene, tracer, delta, key: rng::key(&[self.seed, number]) };
+        let begun = unit - self.first;
+        let (number, turn) = (begun % CHAINS, begun / CHAINS);
+        let key = rng::key(&[self.seed, number, self.first]);
+        let mut run = Run { driver: self, scene, tracer, delta, key };
         loop {
             let mut chain = self.chains[number as usize].lock().unwrap_or_else(PoisonError::into_inner);
             if chain.units < turn {

@@ -30,19 +30,33 @@ enum Parts {
     Hybrid(Box<Independent>, Box<Metropolis>),
 }
 
+/// The film's layer of camera samples.
+const CAMERA: &str = "camera";
+/// The film's layer of light paths that met the lens.
+const LIGHT: &str = "light";
+/// The film's layer of mutations.
+const METROPOLIS: &str = "metropolis";
+
 /// Scattering events of the light that a hybrid driver takes for direct.
 const DIRECT: u32 = 1;
 
 impl Driver {
     /// What the scene's settings ask for, with the seed of all randomness.
     pub fn new(scene: &Scene, seed: u64) -> Self {
+        Self::going_on(scene, seed, 0)
+    }
+
+    /// A driver whose units begin at `first`, for a film that holds those before it. Independent samples go
+    /// on with their sequence, as if they had never paused. Markov chains start afresh, with randomness
+    /// that no chain of an earlier start has used.
+    pub fn going_on(scene: &Scene, seed: u64, first: u64) -> Self {
         let transport = &scene.transport;
         let most = transport.max_depth;
         let mut layers = vec![];
         let camera_layers = |layers: &mut Vec<(LayerKind, &'static str)>| {
-            layers.push((LayerKind::PerPixel, "camera"));
+            layers.push((LayerKind::PerPixel, CAMERA));
             if transport.bidirectional {
-                layers.push((LayerKind::PerScreen, "light"));
+                layers.push((LayerKind::PerScreen, LIGHT));
             }
         };
         let independent = |events| Box::new(Independent::new(scene, seed, events, 0));
@@ -55,8 +69,9 @@ impl Driver {
                 camera_layers(&mut layers);
                 let direct = independent(Events::up_to(DIRECT));
                 let rest = Events { least: DIRECT + 1, most };
-                let indirect = Box::new(Metropolis::new(scene, seed, rest, settings, layers.len()));
-                layers.push((LayerKind::PerScreen, "metropolis"));
+                let indirect =
+                    Box::new(Metropolis::new(scene, [seed, first / 2], rest, settings, layers.len()));
+                layers.push((LayerKind::PerScreen, METROPOLIS));
                 Parts::Hybrid(direct, indirect)
             }
             Some(_) if transport.hybrid => {
@@ -64,8 +79,8 @@ impl Driver {
                 Parts::Independent(independent(Events::up_to(most)))
             }
             Some(settings) => {
-                layers.push((LayerKind::PerScreen, "metropolis"));
-                let driver = Metropolis::new(scene, seed, Events::up_to(most), settings, 0);
+                layers.push((LayerKind::PerScreen, METROPOLIS));
+                let driver = Metropolis::new(scene, [seed, first], Events::up_to(most), settings, 0);
                 Parts::Metropolis(Box::new(driver))
             }
         };
@@ -76,6 +91,27 @@ impl Driver {
             pixels: region.size.pixels() as u64,
             rendered: region.share(),
             is_bidirectional: transport.bidirectional,
+        }
+    }
+
+    /// The same with its units in two halves whose samples are independent of each other, so that their
+    /// difference tells how far the picture may be off. Independent samples form a low-discrepancy sequence
+    /// in each half then, not across them.
+    pub fn in_halves(mut self) -> Self {
+        match &mut self.parts {
+            Parts::Independent(driver) | Parts::Hybrid(driver, _) => driver.is_halved = true,
+            Parts::Metropolis(_) => {}
+        }
+        self
+    }
+
+    /// Which half a unit belongs to, 0 or 1.
+    pub fn half_of(&self, unit: u64) -> usize {
+        match &self.parts {
+            Parts::Independent(driver) => driver.half_of(unit),
+            Parts::Metropolis(driver) => driver.half_of(unit),
+            Parts::Hybrid(direct, _) if unit.is_multiple_of(2) => direct.half_of(unit / 2),
+            Parts::Hybrid(_, indirect) => indirect.half_of(unit / 2),
         }
     }
 
@@ -105,11 +141,15 @@ impl Driver {
     }
 
     /// The least number of units with so many samples per pixel of the whole picture, or more.
+    pub fn units(&self, samples_per_pixel: u64) -> u64 {
+        self.units_of(u128::from(self.pixels) * u128::from(samples_per_pixel))
+    }
+
+    /// The least number of units with so many samples, or more.
     ///
     /// Independent samples come in whole passes over what is rendered, and a pass over a whole picture is one
     /// sample per pixel exactly; mutations come in units of [`MUTATIONS`].
-    pub fn units(&self, samples_per_pixel: u64) -> u64 {
-        let samples = u128::from(self.pixels) * u128::from(samples_per_pixel);
+    pub fn units_of(&self, samples: u128) -> u64 {
         let units = match &self.parts {
             Parts::Independent(driver) => {
                 samples.div_ceil(u128::from(driver.pixels())) * u128::from(driver.units_per_pass())

@@ -1,0 +1,88 @@
+//! What is done with saved films alone: adding them, and developing one again.
+
+use crate::console::Console;
+use crate::flags::Arguments;
+use crate::render::{logical_cores, program, say_saved};
+use crate::{BAD_INPUT, FAILED, RENDERED, json_report, paths, report, with_load_options};
+use indigo_render::output::{OutputPaths, SaveJob, write_film};
+use indigo_render::pool::with_jobs;
+use indigo_render::saved::{FilmFileError, merge_films, read_film};
+use indigo_scene::{LoadedDevelopment, load_development};
+use std::path::{Path, PathBuf};
+
+/// Adds films; the exit status.
+pub fn merge(arguments: &Arguments, console: &mut Console) -> u8 {
+    let paths: Vec<PathBuf> = arguments.files.iter().map(PathBuf::from).collect();
+    let sum = match merge_films(&paths) {
+        Ok(sum) => sum,
+        Err(error) => return fail(&error, console),
+    };
+    // The command line was checked for two films and an output.
+    let (Some(sum), Some(output)) = (sum, &arguments.output) else { return BAD_INPUT };
+    let Some(record) = &sum.record else {
+        console.say(&format!("error: {}: a film of another program cannot be added to", arguments.files[0]));
+        return BAD_INPUT;
+    };
+    match with_jobs(logical_cores(), || write_film(Path::new(output), &sum.film, record)) {
+        Ok(path) => {
+            let spp = record.samples as f64 / sum.film.size.pixels() as f64;
+            console.say(&format!("Saved {}: {} films, {spp:.1} spp", path.display(), paths.len()));
+            RENDERED
+        }
+        Err(error) => {
+            console.say(&format!("error: {error}"));
+            FAILED
+        }
+    }
+}
+
+/// Develops a film by the settings of a scene; the exit status.
+pub fn tone_map(arguments: &Arguments, console: &mut Console) -> u8 {
+    // The command line was checked for just these.
+    let [scene, film, picture] = &arguments.files[..] else { return BAD_INPUT };
+    let picture = match paths::picture_named(picture) {
+        Ok(picture) => picture,
+        Err(reason) => {
+            console.say(&format!("error: {picture}: {reason}"));
+            return BAD_INPUT;
+        }
+    };
+    let loaded: LoadedDevelopment =
+        with_load_options(scene, arguments, |options| load_development(scene, options));
+    if !arguments.json {
+        report(scene, &loaded.sink, &loaded.sources, false, console);
+    } else if !console.answer(&json_report(scene, &loaded.sink, &loaded.sources)) {
+        return FAILED;
+    }
+    let Some(mut development) = loaded.development else { return BAD_INPUT };
+    let saved = match read_film(Path::new(film)) {
+        Ok(saved) => saved,
+        Err(error) => return fail(&error, console),
+    };
+    if saved.film.size != development.size {
+        console.say(&format!(
+            "warning: the film is {}, the scene asks for {}: the picture has the film's size",
+            saved.film.size, development.size
+        ));
+    }
+    // The film is there already.
+    development.output.igi = false;
+    let paths = OutputPaths::new(picture);
+    let job = SaveJob { development, paths, version: program(), threads: logical_cores() };
+    match job.save(&saved) {
+        Ok(files) => {
+            say_saved(&files, console);
+            RENDERED
+        }
+        Err(error) => {
+            console.say(&format!("error: {error}"));
+            FAILED
+        }
+    }
+}
+
+/// Says what is wrong with a film; the exit status.
+pub fn fail(error: &FilmFileError, console: &mut Console) -> u8 {
+    console.say(&format!("error: {error}"));
+    if matches!(error, FilmFileError::Mismatch { .. }) { BAD_INPUT } else { FAILED }
+}

@@ -1,0 +1,180 @@
+//! Saved films: going on, adding, developing again; on disks that fill up and with programs that die.
+
+use super::workbench::{Ran, Workbench, assert_picture};
+use indigo_film::{SavedFilm, igi};
+
+const SAVED: &str = "<logging>false</logging><save_igi>true</save_igi>";
+
+fn film(bench: &Workbench, name: &str) -> SavedFilm {
+    let bytes = std::fs::read(bench.path(name)).expect("the film");
+    igi::read(&bytes).expect("a sound film")
+}
+
+#[track_caller]
+fn ok(ran: &Ran) {
+    assert_eq!(ran.status, Some(0), "{ran:?}");
+}
+
+fn samples(film: &SavedFilm) -> u64 {
+    film.record.as_ref().expect("a film of this program").samples
+}
+
+/// Equal but for the rounding of sums.
+fn assert_same(a: &SavedFilm, b: &SavedFilm) {
+    assert_eq!(samples(a), samples(b));
+    for (a, b) in a.film.layers.iter().zip(&b.film.layers) {
+        assert_eq!(a.counts, b.counts);
+        for (a, b) in a.sums.as_flattened().iter().zip(b.sums.as_flattened()) {
+            assert!((a - b).abs() <= 1e-6 * a.abs().max(b.abs()), "{a} and {b}");
+        }
+    }
+}
+
+#[test]
+fn a_render_goes_on_where_it_ended() {
+    let bench = Workbench::new(SAVED);
+    ok(&bench.run(&["scene.igs", "-haltspp", "6", "-o", "once.png", "-seed", "9"]));
+    ok(&bench.run(&["scene.igs", "-haltspp", "2", "-o", "a.png", "-seed", "9"]));
+    // The seed is that of the film, and the file that is gone on with may be the one that is written.
+    let ran = bench.run(&["scene.igs", "-haltspp", "6", "-r", "a.igi", "-o", "a.png"]);
+    ok(&ran);
+    assert!(ran.stderr.contains("Going on with a.igi: 2.0 spp"), "{}", ran.stderr);
+    assert_same(&film(&bench, "a.igi"), &film(&bench, "once.igi"));
+    let told = bench.run(&["-dumpmetadata", "a.png"]);
+    assert!(told.stdout.contains("num_samples: 7200") && told.stdout.contains("seed: 9"), "{}", told.stdout);
+}
+
+#[test]
+fn independent_renders_add_up() {
+    let bench = Workbench::new(SAVED);
+    for seed in ["1", "2", "3"] {
+        ok(&bench.run(&["scene.igs", "-haltspp", "2", "-o", &format!("{seed}.png"), "-seed", seed]));
+    }
+    let ran = bench.run(&["--merge", "1.igi", "2.igi", "3.igi", "-o", "sum.igi"]);
+    ok(&ran);
+    assert!(ran.stderr.contains("Saved sum.igi: 3 films, 6.0 spp"), "{}", ran.stderr);
+    let sum = film(&bench, "sum.igi");
+    let mut expected = film(&bench, "1.igi");
+    expected.merge(&film(&bench, "2.igi")).expect("another seed");
+    expected.merge(&film(&bench, "3.igi")).expect("another seed");
+    assert_eq!(sum, expected);
+    ok(&bench.run(&["scene.igs", "-haltspp", "7", "-r", "sum.igi", "-o", "on.png"]));
+    assert_eq!(samples(&film(&bench, "on.igi")), 40 * 30 * 7);
+    for (films, says) in [
+        (["1.igi", "1.igi"], "would count twice"),
+        (["1.igi", "sum.igi"], "seed 1"),
+        (["1.igi", "scene.igs"], "not an Indigo image"),
+        (["1.igi", "nowhere.igi"], "cannot read nowhere.igi"),
+    ] {
+        let ran = bench.run(&["--merge", films[0], films[1], "-o", "no.igi"]);
+        assert!(ran.status != Some(0) && ran.stderr.contains(says), "{films:?}: {ran:?}");
+        assert!(!bench.path("no.igi").exists());
+    }
+}
+
+#[test]
+fn a_film_of_another_scene_is_not_gone_on_with() {
+    let bench = Workbench::new(SAVED);
+    ok(&bench.run(&["scene.igs", "-haltspp", "1", "-o", "a.png"]));
+    let text = std::fs::read_to_string(bench.path("scene.igs")).expect("the scene");
+    bench.write("other.igs", &text.replace("<radius>1<", "<radius>1.1<"));
+    bench.write("wider.igs", &text.replace("<width>40<", "<width>44<"));
+    for (scene, says) in [("other.igs", "the scene itself"), ("wider.igs", "width is 40 there, and 44 here")]
+    {
+        let ran = bench.run(&[scene, "-haltspp", "2", "-r", "a.igi", "-o", "b.png"]);
+        assert_eq!(ran.status, Some(2), "{ran:?}");
+        assert!(ran.stderr.contains(says), "{}", ran.stderr);
+        assert!(!bench.path("b.png").exists());
+    }
+}
+
+/// The picture that a render saved is the one that its film gives; with other settings it is another.
+#[test]
+fn a_film_is_developed_again() {
+    let bench = Workbench::new(SAVED);
+    ok(&bench.run(&["scene.igs", "-haltspp", "3", "-o", "a.png"]));
+    let ran = bench.run(&["--tonemap", "scene.igs", "a.igi", "again.png"]);
+    ok(&ran);
+    let pixels = |name: &str| {
+        let bytes = std::fs::read(bench.path(name)).expect("the picture");
+        indigo_formats::image::decode(name, &bytes).expect("a picture").pixels
+    };
+    assert!(pixels("a.png") == pixels("again.png"));
+    assert!(!bench.path("again.igi").exists());
+    let text = std::fs::read_to_string(bench.path("scene.igs")).expect("the scene");
+    bench.write("darker.igs", &text.replace("<pre_scale>4<", "<pre_scale>1<"));
+    ok(&bench.run(&["--tonemap", "darker.igs", "a.igi", "darker.png"]));
+    assert!(pixels("a.png") != pixels("darker.png"));
+    bench.write("broken.igi", "no film");
+    assert_eq!(bench.run(&["--tonemap", "scene.igs", "broken.igi", "x.png"]).status, Some(1));
+}
+
+/// A disk that holds some saves and then no more: the limit on the size of files stands in for it. Whatever fits
+/// is complete, and what does not leaves the last one.
+#[cfg(unix)]
+#[test]
+fn a_full_disk_leaves_what_was_complete() {
+    let bench = Workbench::new(SAVED);
+    ok(&bench.run(&["scene.igs", "-haltspp", "2", "-o", "a.png"]));
+    let before = film(&bench, "a.igi");
+    let sizes = ["a.igi", "a.png"].map(|name| std::fs::metadata(bench.path(name)).expect("saved").len());
+    // In blocks of 512 bytes: nothing at all, less than the film, and the picture but not the film.
+    for blocks in [0, sizes[0] / 1024, (sizes[1] / 512 + 2).min(sizes[0] / 512 - 1)] {
+        let ran = bench.run_limited(blocks, &["scene.igs", "-haltspp", "9", "-r", "a.igi", "-o", "a.png"]);
+        assert_eq!(ran.status, Some(1), "{blocks} blocks: {ran:?}");
+        assert!(ran.stderr.contains("cannot write"), "{}", ran.stderr);
+        assert_eq!(film(&bench, "a.igi"), before);
+        assert_picture(&bench.path("a.png"), 40, 30);
+        assert_eq!(bench.files(), ["a.igi", "a.png", "scene.igs"], "nothing half-made stays");
+    }
+}
+
+/// Through the curves that come with the program, through a file beside the scene, and with other speed: each is
+/// another picture; twice the speed is one step of exposure.
+#[test]
+fn a_camera_develops_by_its_response_and_speed() {
+    let bench = Workbench::new(SAVED);
+    ok(&bench.run(&["scene.igs", "-haltspp", "2", "-o", "a.png"]));
+    let text = std::fs::read_to_string(bench.path("scene.igs")).expect("the scene");
+    let (before, rest) = text.split_once("<reinhard>").expect("a tone mapping");
+    let (_, after) = rest.split_once("</reinhard>").expect("a tone mapping");
+    bench.write("dim.txt", "dim\ngraph\nI =\n0 1\nB =\n0 0.5\n");
+    let develop = |path: &str, ev: &str, iso: &str| {
+        let camera = format!(
+            "<camera><response_function_path>{path}</response_function_path><ev_adjust>{ev}</ev_adjust>\
+             <film_iso>{iso}</film_iso></camera>"
+        );
+        bench.write("camera.igs", &format!("{before}{camera}{after}"));
+        ok(&bench.run(&["--tonemap", "camera.igs", "a.igi", "camera.png"]));
+        let bytes = std::fs::read(bench.path("camera.png")).expect("the picture");
+        let indigo_formats::image::Pixels::U8(values) =
+            indigo_formats::image::decode("camera.png", &bytes).expect("a picture").pixels
+        else {
+            panic!("8 bits")
+        };
+        values
+    };
+    let shipped = "data/camera_response_functions/film_contrast.txt";
+    let mut pictures = vec![
+        develop("", "0", "800"),
+        develop("dim.txt", "0", "800"),
+        develop(shipped, "0", "800"),
+        develop(shipped, "1", "800"),
+    ];
+    assert_eq!(develop(shipped, "0", "1600"), pictures[3]);
+    assert!(pictures[1].iter().all(|&v| v <= 128), "brighter than the end of the curve");
+    let mean = |p: &[u8]| p.iter().map(|&v| u64::from(v)).sum::<u64>() / p.len() as u64;
+    assert!(pictures.iter().all(|p| mean(p) > 5 && mean(p) < 250), "not the range of these curves");
+    pictures.dedup();
+    assert_eq!(pictures.len(), 4);
+    bench.write("broken.txt", "dim\nI = 0 1\nB = 0 2\n");
+    let scene = std::fs::read_to_string(bench.path("camera.igs")).expect("the scene");
+    for (path, says) in [("broken.txt", "3:7: expected a brightness"), ("none.txt", "cannot read none.txt")] {
+        bench.write("bad.igs", &scene.replace(shipped, path));
+        let ran = bench.run(&["bad.igs", "--check"]);
+        assert!(
+            ran.status == Some(2) && ran.stderr.contains(says) && ran.stderr.contains("bad.igs:"),
+            "{ran:?}"
+        );
+    }
+}

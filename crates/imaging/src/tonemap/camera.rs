@@ -1,0 +1,189 @@
+//! The tone mapping of a camera: exposure, speed of the film, and the measured response of film or sensor.
+//!
+//! A channel's relative irradiance is H · film_iso / 78 · 2^ev_adjust, with H the white-balanced exposure in
+//! lux·s: by its saturation-based speed S (ISO 12232:2006, 6.2) a sensor saturates at 78 / S lux·s. The response
+//! curve tells the brightness for it, and the end of the curve is as bright as it gets.
+//!
+//! Response curves are measured on finished pictures, so they hold the display's transfer function. It is
+//! taken out here, since the picture is downsized in display-linear light, and comes back when the picture is
+//! encoded: a brightness B ends as the code 255 · B.
+
+use crate::PictureSettings;
+use crate::srgb;
+use crate::white_balance::Matrix;
+use std::sync::Arc;
+
+/// Film speed times exposure of a saturated sensor (ISO 12232:2006, 6.2), lux·s.
+const SATURATION: f64 = 78.0;
+/// Cells of the table that undoes the display's transfer function: with straight lines between them the error is
+/// at most h²/8 · max|f''| = 2e-8, half a rounding of `f32`.
+const DECODE_CELLS: usize = 4096;
+
+/// The response of one channel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curve {
+    irradiance: Vec<f32>,
+    brightness: Vec<f32>,
+    /// For each of as many even cells over [first, last] irradiance, the last point at or before its start.
+    guide: Vec<u32>,
+}
+
+/// The response of red, green and blue.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Response {
+    curves: [Curve; 3],
+    decode: Vec<f32>,
+}
+
+impl Response {
+    /// From the points of three curves: irradiances that never decrease, and as many brightnesses, all finite and
+    /// at least two. `None` where they are not.
+    pub fn new(points: [(&[f32], &[f32]); 3]) -> Option<Self> {
+        let [r, g, b] = points.map(|(irradiance, brightness)| Curve::new(irradiance, brightness));
+        let decode = (0..=DECODE_CELLS).map(|i| srgb::decode(i as f64 / DECODE_CELLS as f64) as f32);
+        Some(Self { curves: [r?, g?, b?], decode: decode.collect() })
+    }
+
+    /// The response of a display: what the sensor gathers is shown as it is, up to saturation.
+    pub fn display() -> Self {
+        const POINTS: u16 = 1024;
+        let irradiance: Vec<f32> = (0..POINTS).map(|i| f32::from(i) / f32::from(POINTS - 1)).collect();
+        let brightness: Vec<f32> = irradiance.iter().map(|&v| srgb::encode(f64::from(v)) as f32).collect();
+        let curve = Curve::new(&irradiance, &brightness);
+        let curve = curve.unwrap_or_else(|| unreachable!("the points above are in order"));
+        let decode = (0..=DECODE_CELLS).map(|i| srgb::decode(i as f64 / DECODE_CELLS as f64) as f32);
+        Self { curves: [curve.clone(), curve.clone(), curve], decode: decode.collect() }
+    }
+
+    /// Display-linear light of a brightness in [0, 1].
+    #[inline]
+    fn decoded(&self, brightness: f32) -> f32 {
+        let at = brightness.clamp(0.0, 1.0) * DECODE_CELLS as f32;
+        let cell = (at as usize).min(DECODE_CELLS - 1);
+        let (a, b) = (self.decode[cell], self.decode[cell + 1]);
+        a + (b - a) * (at - cell as f32)
+    }
+}
+
+impl Curve {
+    fn new(irradiance: &[f32], brightness: &[f32]) -> Option<Self> {
+        let n = irradiance.len();
+        let [first, .., last] = irradiance else { return None };
+        let is_sound = n == brightness.len()
+            && irradiance.iter().chain(brightness).all(|v| v.is_finite())
+            && irradiance.is_sorted()
+            && first < last;
+        if !is_sound {
+            return None;
+        }
+        let start = |cell: usize| first + (last - first) * cell as f32 / n as f32;
+        let before = |cell: usize| irradiance.partition_point(|v| *v <= start(cell)).saturating_sub(1);
+        let guide = (0..n).map(|cell| before(cell) as u32).collect();
+        Some(Self { irradiance: irradiance.to_vec(), brightness: brightness.to_vec(), guide })
+    }
+
+    /// The brightness of an irradiance: straight lines between the points, constant beyond the ends.
+    #[inline]
+    fn eval(&self, irradiance: f32) -> f32 {
+        let n = self.irradiance.len();
+        let (first, last) = (self.irradiance[0], self.irradiance[n - 1]);
+        if irradiance >= last {
+            return self.brightness[n - 1];
+        }
+        // What is no number is dark.
+        if irradiance <= first || irradiance.is_nan() {
+            return self.brightness[0];
+        }
+        let cell = ((irradiance - first) / (last - first) * n as f32) as usize;
+        // Rounding may have led into the next cell: the points before it are before this value all the same, but
+        // for the very next one.
+        let mut i = (self.guide[cell.min(n - 1)] as usize).saturating_sub(1);
+        while self.irradiance[i + 1] <= irradiance {
+            i += 1;
+        }
+        let (x0, x1) = (self.irradiance[i], self.irradiance[i + 1]);
+        let (y0, y1) = (self.brightness[i], self.brightness[i + 1]);
+        y0 + (y1 - y0) * (irradiance - x0) / (x1 - x0)
+    }
+}
+
+/// The operator for one picture.
+pub(crate) struct Camera {
+    matrix: Matrix,
+    response: Arc<Response>,
+}
+
+impl Camera {
+    pub(super) fn new(
+        response: &Arc<Response>,
+        ev_adjust: f64,
+        film_iso: f64,
+        settings: &PictureSettings,
+    ) -> Self {
+        let factor = settings.exposure.lux_seconds_per_nit() * film_iso / SATURATION * ev_adjust.exp2();
+        Self { matrix: settings.white_balance.to_rgb().scaled(factor as f32), response: Arc::clone(response) }
+    }
+
+    pub(super) fn map_row(&self, from: &[[f32; 4]], to: &mut [[f32; 4]]) {
+        let response = &*self.response;
+        for (xyz, out) in from.iter().zip(to) {
+            let rgb = self.matrix.apply(xyz);
+            let [r, g, b] = std::array::from_fn(|c| response.decoded(response.curves[c].eval(rgb[c])));
+            *out = [r, g, b, xyz[3]];
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn curves_are_straight_between_their_points() {
+        // Points very close together, a step, and a wide gap.
+        let x = [0.0, 1e-6, 2e-6, 0.1, 0.1, 0.9, 1.0];
+        let y = [0.0, 0.1, 0.3, 0.4, 0.6, 0.7, 1.0];
+        let curve = Curve::new(&x, &y).unwrap();
+        for i in 0..x.len() - 1 {
+            if x[i] == x[i + 1] {
+                continue;
+            }
+            for t in [0.0, 0.25, 0.5, 0.75] {
+                let at = x[i] + t * (x[i + 1] - x[i]);
+                let want = y[i] + t * (y[i + 1] - y[i]);
+                assert!((curve.eval(at) - want).abs() < 1e-5, "{at}: {} instead of {want}", curve.eval(at));
+            }
+        }
+        let ends = [f32::NAN, -1.0, f32::NEG_INFINITY, 1.0, 7.0, f32::INFINITY].map(|v| curve.eval(v));
+        assert_eq!(ends, [0.0, 0.0, 0.0, 1.0, 1.0, 1.0]);
+        for i in 0..=100_000 {
+            let at = i as f32 / 1e5;
+            let value = curve.eval(at);
+            assert!((0.0..=1.0).contains(&value), "{at}: {value}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_curve_is_refused() {
+        for (x, y) in [
+            (&[0.0][..], &[0.0][..]),
+            (&[0.0, 1.0], &[0.0]),
+            (&[0.5, 0.5], &[0.0, 1.0]),
+            (&[1.0, 0.0], &[0.0, 1.0]),
+            (&[0.0, f32::NAN], &[0.0, 1.0]),
+        ] {
+            assert_eq!(Curve::new(x, y), None);
+        }
+    }
+
+    #[test]
+    fn the_display_shows_what_the_sensor_gathers() {
+        let display = Response::display();
+        for i in 0..=1000 {
+            let light = i as f32 / 1000.0;
+            let shown = display.decoded(display.curves[0].eval(light));
+            // 1024 points leave straight lines that much off where the transfer function bends most.
+            assert!((shown - light).abs() < 2e-4, "{light}: {shown}");
+        }
+    }
+}

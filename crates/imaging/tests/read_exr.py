@@ -1,0 +1,16 @@
+"""Prints what the OpenEXR library reads in a file: attributes, size, then R, G and B of every pixel."""
+
+import sys
+
+import OpenEXR
+
+with OpenEXR.File(sys.argv[1]) as file:
+    header = file.header()
+    numbers = [float(v) for v in header["chromaticities"]]
+    print("whiteLuminance", f"{header['whiteLuminance']:g}")
+    print("chromaticities", *(f"{v:g}" for v in numbers))
+    print("indigo.scene_file_path", header["indigo.scene_file_path"])
+    pixels = file.channels()["RGB"].pixels
+    print("size", pixels.shape[1], pixels.shape[0])
+    for value in pixels.reshape(-1):
+        print(repr(float(value)))

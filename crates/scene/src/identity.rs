@@ -1,0 +1,110 @@
+//! Which scene it is: a hash of all that the film depends on, so that a film is never gone on with, or added
+//! to, for another scene.
+//!
+//! Left out is what decides how long, how and with what name to render (`renderer_settings`, whose deciding
+//! values are compared by name), and what decides only how the film is developed. Places and paths do not
+//! count: the same scene on another machine is the same scene. Files that the scene names count by their
+//! content.
+
+use indigo_decl::{Element, EmbeddedMesh, ResolveError, Resolved, Resolver};
+use std::collections::BTreeSet;
+use std::sync::{Mutex, PoisonError};
+
+/// Elements without influence on the film.
+const DEVELOPMENT: &[&str] =
+    &["renderer_settings", "tonemapping", "white_balance", "exposure_duration", "bloom", "metadata"];
+
+/// Hands files on and keeps the hashes of their contents.
+pub(crate) struct Witness<'a> {
+    inner: &'a dyn Resolver,
+    seen: Mutex<BTreeSet<[u8; 32]>>,
+}
+
+impl<'a> Witness<'a> {
+    pub fn new(inner: &'a dyn Resolver) -> Self {
+        Self { inner, seen: Mutex::default() }
+    }
+
+    /// The hash of a scene's elements and of all files read so far, in whatever order.
+    pub fn identity(&self, elements: [u8; 32]) -> [u8; 32] {
+        let mut hasher = blake3::Hasher::new();
+        hasher.update(&elements);
+        for hash in self.seen.lock().unwrap_or_else(PoisonError::into_inner).iter() {
+            hasher.update(hash);
+        }
+        *hasher.finalize().as_bytes()
+    }
+}
+
+impl Resolver for Witness<'_> {
+    fn read(&self, path: &str, from: &str) -> Result<Resolved, ResolveError> {
+        let found = self.inner.read(path, from)?;
+        let hash = *blake3::hash(&found.bytes).as_bytes();
+        self.seen.lock().unwrap_or_else(PoisonError::into_inner).insert(hash);
+        Ok(found)
+    }
+}
+
+/// The hash of what a scene's elements say.
+pub(crate) fn hash_elements(root: &Element) -> [u8; 32] {
+    let mut hasher = blake3::Hasher::new();
+    hash_element(&mut hasher, root);
+    *hasher.finalize().as_bytes()
+}
+
+fn hash_element(hasher: &mut blake3::Hasher, element: &Element) {
+    hash_text(hasher, &element.name);
+    hash_text(hasher, &element.text.value);
+    hash_count(hasher, element.attributes.len());
+    for attribute in &element.attributes {
+        hash_text(hasher, &attribute.name.value);
+        hash_text(hasher, &attribute.value.value);
+    }
+    if let Some(mesh) = &element.mesh {
+        hash_mesh(hasher, mesh);
+    }
+    let children = element.children.iter().filter(|c| !DEVELOPMENT.contains(&&*c.name));
+    hash_count(hasher, children.clone().count());
+    children.for_each(|child| hash_element(hasher, child));
+}
+
+fn hash_mesh(hasher: &mut blake3::Hasher, mesh: &EmbeddedMesh) {
+    let data = &mesh.data;
+    hash_words(hasher, data.positions.as_flattened().iter().map(|v| v.to_bits()));
+    hash_words(hasher, data.normals.as_flattened().iter().map(|v| v.to_bits()));
+    hash_count(hasher, data.uv_sets.len());
+    for set in &data.uv_sets {
+        hash_words(hasher, set.as_flattened().iter().map(|v| v.to_bits()));
+    }
+    for (name, set) in &data.uv_names {
+        hash_text(hasher, name);
+        hash_count(hasher, *set as usize);
+    }
+    hash_words(hasher, data.triangles.as_flattened().iter().copied());
+    hash_words(hasher, data.triangle_materials.iter().copied());
+    data.material_names.iter().for_each(|name| hash_text(hasher, name));
+}
+
+/// Words behind their number, in pieces that fit the processor's cache.
+fn hash_words(hasher: &mut blake3::Hasher, words: impl ExactSizeIterator<Item = u32>) {
+    const PIECE: usize = 16 << 10;
+    hash_count(hasher, words.len());
+    let mut bytes = Vec::with_capacity(PIECE);
+    for word in words {
+        bytes.extend(word.to_le_bytes());
+        if bytes.len() >= PIECE {
+            hasher.update(&bytes);
+            bytes.clear();
+        }
+    }
+    hasher.update(&bytes);
+}
+
+fn hash_text(hasher: &mut blake3::Hasher, text: &str) {
+    hash_count(hasher, text.len());
+    hasher.update(text.as_bytes());
+}
+
+fn hash_count(hasher: &mut blake3::Hasher, n: usize) {
+    hasher.update(&(n as u64).to_le_bytes());
+}
