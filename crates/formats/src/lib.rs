@@ -3,6 +3,7 @@
 //! | module | files | result |
 //! |---|---|---|
 //! | [`obj`], [`ply`], [`three_ds`], [`igmesh`] | meshes | [`MeshData`] |
+//! | [`nk`] | complex indices of refraction | [`nk::ComplexIndex`] |
 //! | [`image`] | PNG, JPEG, TGA, BMP, TIFF, HDR, EXR | [`image::Image`] |
 //! | [`float_map`] | .float | [`image::Image`] |
 //! | [`ies`] | photometric data of lamps | [`ies::Photometry`] |
@@ -24,6 +25,7 @@ pub mod ies;
 pub mod igmesh;
 pub mod image;
 mod mesh_file;
+pub mod nk;
 pub mod obj;
 pub mod ply;
 mod polygon;

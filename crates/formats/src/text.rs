@@ -99,6 +99,11 @@ impl<'a> Text<'a> {
         }
     }
 
+    /// What stands between two offsets; empty where it is not UTF-8.
+    pub(crate) fn between(&self, start: usize, end: usize) -> &'a str {
+        self.bytes.get(start..end).and_then(|bytes| std::str::from_utf8(bytes).ok()).unwrap_or_default()
+    }
+
     /// The next word as a number, which need not be finite.
     pub(crate) fn number<T: std::str::FromStr>(&mut self, expected: &str) -> Result<T, FormatError> {
         let start = self.at;

@@ -32,18 +32,17 @@ impl Accel {
 
     /// How the position moves with u and with v of a set, metres per unit: (∂p/∂u, ∂p/∂v).
     ///
-    /// Where the set is missing or degenerate: two unit vectors that span the surface.
-    pub fn uv_derivatives(&self, point: &SurfacePoint, set: u32) -> (Vec3, Vec3) {
-        let exact = match self.objects[point.object as usize] {
-            Object::Mesh { .. } => self.mesh_derivatives(point, set),
-            Object::Sphere { radius, .. } => sphere_derivatives(point.n_g.cast(), radius),
-            Object::Plane { .. } => None,
+    /// `None` where the set is missing or does not span the surface.
+    pub fn uv_derivatives(&self, point: &SurfacePoint, set: u32) -> Option<(Vec3, Vec3)> {
+        let (du, dv) = match self.objects[point.object as usize] {
+            Object::Mesh { .. } => self.mesh_derivatives(point, set)?,
+            Object::Sphere { radius, .. } => sphere_derivatives(point.n_g.cast(), radius)?,
+            Object::Plane { .. } => {
+                let frame = Frame::from_normal(point.n_g);
+                (frame.s.cast(), frame.t.cast())
+            }
         };
-        let (du, dv) = exact.unwrap_or_else(|| {
-            let frame = Frame::from_normal(point.n_g);
-            (frame.s.cast(), frame.t.cast())
-        });
-        (du.cast(), dv.cast())
+        Some((du.cast(), dv.cast()))
     }
 
     fn mesh_uv(&self, point: &SurfacePoint, set: u32) -> Option<Vec2<f64>> {

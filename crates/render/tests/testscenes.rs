@@ -21,7 +21,7 @@ fn shipped_scenes() -> Vec<PathBuf> {
 /// What loading a scene has to say about it.
 fn complaints(path: &Path) -> Vec<String> {
     let options = LoadOptions {
-        resolver: &DiskResolver::new(vec![]),
+        resolver: &DiskResolver::new(vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")]),
         trees: &NoStore,
         inifile: None,
         overrides: &[],

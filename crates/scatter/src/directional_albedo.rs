@@ -45,6 +45,20 @@ impl AlbedoRow {
         row
     }
 
+    /// A row between those of a list whose rows stand at equal steps of a parameter from 0 to 1.
+    #[inline]
+    pub fn between(rows: &[Self], parameter: Real) -> Self {
+        let place = parameter * (rows.len() - 1) as Real;
+        let low = (place as usize).min(rows.len() - 2);
+        let mix = |a: Real, b: Real| a + (b - a) * (place - low as Real);
+        let (a, b) = (&rows[low], &rows[low + 1]);
+        Self {
+            albedo: std::array::from_fn(|i| mix(a.albedo[i], b.albedo[i])),
+            scale: mix(a.scale, b.scale),
+            average: mix(a.average, b.average),
+        }
+    }
+
     /// E(μ).
     #[inline]
     pub fn at(&self, cos: Real) -> Real {

@@ -1,6 +1,6 @@
 //! Fresnel's equations for unpolarised light.
 
-use indigo_math::Real;
+use indigo_math::{Float, Real};
 
 /// Light that meets the smooth surface of a dielectric.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,19 +22,84 @@ pub fn dielectric(cos: Real, eta: Real) -> Dielectric {
     if eta_cos2 <= 0.0 || cos <= 0.0 {
         return Dielectric { reflectance: 1.0, cos_transmitted: 0.0 };
     }
-    let eta_cos = eta_cos2.sqrt();
-    let cos_transmitted = (eta_cos / eta).min(1.0);
+    let cos_transmitted = (eta_cos2.sqrt() / eta).min(1.0);
+    Dielectric { reflectance: reflectance(cos, cos_transmitted, eta), cos_transmitted }
+}
+
+/// The reflectance of an interface by the cosines on both its sides, the second towards `eta` times the index.
+/// Where both are known it is the same to the last bits from either side, also near the angle of total reflection.
+#[inline]
+pub fn reflectance(cos: Real, cos_transmitted: Real, eta: Real) -> Real {
     let parallel = (eta * cos - cos_transmitted) / (eta * cos + cos_transmitted);
-    let perpendicular = (cos - eta_cos) / (cos + eta_cos);
-    Dielectric {
-        reflectance: (0.5 * (parallel * parallel + perpendicular * perpendicular)).min(1.0),
-        cos_transmitted,
-    }
+    let perpendicular = (cos - eta * cos_transmitted) / (cos + eta * cos_transmitted);
+    (0.5 * (parallel * parallel + perpendicular * perpendicular)).min(1.0)
+}
+
+/// Reflectance of a conductor of complex index n + ik (over the index of what lies outside) at cosine `cos` in
+/// [0, 1] to the normal (Born & Wolf, "Principles of Optics", section 14.2, squared amplitudes written out).
+#[inline]
+pub fn conductor(cos: Real, n: Real, k: Real) -> Real {
+    let cos2 = (cos * cos).min(1.0);
+    let sin2 = 1.0 - cos2;
+    let difference = n * n - k * k - sin2;
+    // a² + b² of the complex cosine inside, a + ib = √((n + ik)² - sin²).
+    let modulus = (difference * difference + 4.0 * n * n * k * k).sqrt();
+    let a = (0.5 * (modulus + difference)).max(0.0).sqrt();
+    let (sum, cross) = (modulus + cos2, 2.0 * a * cos);
+    let perpendicular = (sum - cross) / (sum + cross);
+    let (sum, cross) = (cos2 * modulus + sin2 * sin2, cross * sin2);
+    // At grazing incidence both parts of the quotient vanish together for an index of 1.
+    let parallel = if sum + cross > 0.0 { (sum - cross) / (sum + cross) } else { 1.0 };
+    (0.5 * perpendicular * (1.0 + parallel)).clamp(0.0, 1.0)
+}
+
+/// Schlick's approximation for a surface that reflects `r0` along its normal (Schlick 1994, "An Inexpensive BRDF
+/// Model for Physically-Based Rendering", equation 15).
+#[inline]
+pub fn schlick(cos: Real, r0: Real) -> Real {
+    let x = 1.0 - cos.min(1.0);
+    let x2 = x * x;
+    r0 + (1.0 - r0) * x2 * x2 * x
+}
+
+/// What a reflectance by cosine reflects of even light from everywhere: 2 ∫ R(μ) μ dμ.
+pub fn diffuse_average(reflectance: impl Fn(Real) -> Real) -> f64 {
+    // μ = s² spreads the nodes towards grazing angles, where reflectances bend.
+    crate::directional_albedo::integral([0.0, 1.0], 8, |s| {
+        4.0 * s * s * s * reflectance(Real::from_f64(s * s)).to_f64()
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Degrees and reflectance of n = 0.4241, k = 2.4721.
+    const GOLD: [(f64, f64); 4] =
+        [(0.0, 0.791_580_133), (60.0, 0.792_297_929), (85.0, 0.920_843_746), (89.0, 0.982_726_481)];
+
+    /// Gold at some wavelength, by complex arithmetic; and an index without absorption, as the dielectric's.
+    #[test]
+    fn metals_reflect_as_tabulated() {
+        for (degrees, exact) in GOLD {
+            near(conductor(f64::to_radians(degrees).cos() as Real, 0.4241, 2.4721), exact, 2e-6);
+        }
+        for degrees in [0.0, 30.0, 56.31, 80.0, 89.9] {
+            let cos = f64::to_radians(degrees).cos() as Real;
+            near(conductor(cos, 1.5, 0.0), dielectric(cos, 1.5).reflectance as f64, 2e-6);
+        }
+        assert_eq!(conductor(0.0, 0.2, 3.0), 1.0);
+        // No interface at all, also along it.
+        assert!(conductor(0.7, 1.0, 0.0).abs() < 1e-6 && conductor(0.0, 1.0, 0.0).is_finite());
+    }
+
+    #[test]
+    fn schlick_rises_from_its_base_to_one_and_averages_to_its_closed_form() {
+        assert_eq!((schlick(1.0, 0.3), schlick(0.0, 0.3)), (0.3, 1.0));
+        // 2 ∫ (1 - μ)⁵ μ dμ = 1/21.
+        assert!((diffuse_average(|mu| schlick(mu, 0.3)) - (0.3 + 0.7 / 21.0)).abs() < 1e-6);
+        assert!((diffuse_average(|mu| dielectric(mu, 1.5).reflectance) - 0.091_777_959).abs() < 1e-5);
+    }
 
     fn at(degrees: f64, eta: Real) -> Dielectric {
         dielectric(degrees.to_radians().cos() as Real, eta)

@@ -5,17 +5,20 @@
 //! - [`Scatter`]: what the author of a model writes, in the local frame, without cosines;
 //! - [`ShadingPoint`]: the same at a point of a surface, with cosines and corrections for shading normals.
 
+mod bump;
 mod directional_albedo;
 pub mod fresnel;
 pub mod materials;
 pub mod media;
 mod medium_stack;
+mod microfacet;
 pub mod phase;
 mod reflectance;
 mod scatter;
 mod shading;
 
-pub use materials::{Interface, Leaf, Material, MaterialContext, MaterialResources, SurfaceKind};
+pub use bump::bumped_normal;
+pub use materials::{Interface, Leaf, Material, MaterialContext, MaterialId, MaterialResources, SurfaceKind};
 pub use media::{Medium, MediumId};
 pub use medium_stack::MediumStack;
 pub use phase::Phase;

@@ -40,9 +40,11 @@ fn random_direction(rng: &mut Rng) -> Vec3 {
     vec([r * phi.cos(), r * phi.sin(), z])
 }
 
+/// Says that two values of a model are equal but for rounding, which its `sharpness` enlarges.
 #[track_caller]
-fn assert_close(what: &str, a: Real, b: Real) {
-    assert!((a - b).abs() <= ROUNDING * a.abs().max(b.abs()) + 1e-7, "{what}: {a} and {b}");
+fn assert_close(what: &str, sharpness: Real, a: Real, b: Real) {
+    let tolerance = ROUNDING * sharpness;
+    assert!((a - b).abs() <= tolerance * a.abs().max(b.abs()) + 1e-7, "{what}: {a} and {b}");
 }
 
 #[test]
@@ -58,7 +60,7 @@ fn directions_follow_the_density() {
     for (seed, case) in cases.iter().enumerate() {
         let point = case.point();
         let test =
-            Chi2 { samples: 60_000, seed: seed as u64, ..Chi2::new(Domain::Sphere).among(cases.len()) };
+            Chi2 { samples: 20_000, seed: seed as u64, ..Chi2::new(Domain::Sphere).among(cases.len()) };
         let result = test.run(
             |rng| point.sample(random(rng), Mode::Radiance).map(|s| array(s.wi)),
             |wi| point.eval(vec(wi), Mode::Radiance).pdf.hero() as f64,
@@ -72,16 +74,21 @@ fn a_draw_says_what_evaluation_says() {
     for case in cases() {
         let point = case.point();
         let mut rng = Rng::new(7);
-        for _ in 0..2000 {
+        for _ in 0..300 {
             for mode in [Mode::Radiance, Mode::Importance] {
                 let Some(drawn) = point.sample(random(&mut rng), mode) else { continue };
                 let evaluated = point.eval(drawn.wi, mode);
                 for lane in 0..LANES {
                     let what = |name| format!("{case}, {mode:?}, {name}, lane {lane}");
                     let weight = evaluated.f_cos[lane] / evaluated.pdf.hero();
-                    assert_close(&what("weight"), drawn.weight[lane], weight);
-                    assert_close(&what("pdf"), drawn.pdf[lane], evaluated.pdf[lane]);
-                    assert_close(&what("reverse pdf"), drawn.pdf_rev[lane], evaluated.pdf_rev[lane]);
+                    assert_close(&what("weight"), case.sharpness, drawn.weight[lane], weight);
+                    assert_close(&what("pdf"), case.sharpness, drawn.pdf[lane], evaluated.pdf[lane]);
+                    assert_close(
+                        &what("reverse pdf"),
+                        case.sharpness,
+                        drawn.pdf_rev[lane],
+                        evaluated.pdf_rev[lane],
+                    );
                 }
             }
         }
@@ -98,8 +105,18 @@ fn the_reverse_density_is_that_of_the_exchanged_directions() {
             let there = case.point().eval(wi, Mode::Radiance);
             let back = case.from(wi).eval(case.wo, Mode::Importance);
             for lane in 0..LANES {
-                assert_close(&format!("{case}, reverse"), there.pdf_rev[lane], back.pdf[lane]);
-                assert_close(&format!("{case}, forward"), there.pdf[lane], back.pdf_rev[lane]);
+                assert_close(
+                    &format!("{case}, reverse"),
+                    case.sharpness,
+                    there.pdf_rev[lane],
+                    back.pdf[lane],
+                );
+                assert_close(
+                    &format!("{case}, forward"),
+                    case.sharpness,
+                    there.pdf[lane],
+                    back.pdf_rev[lane],
+                );
             }
         }
     }
@@ -119,7 +136,12 @@ fn both_modes_are_adjoint() {
             let back = case.from(wi).eval(case.wo, Mode::Importance).f_cos / case.wo.dot(case.n_g);
             lit += u32::from(!there.is_black());
             for lane in 0..LANES {
-                assert_close(&format!("{case}, wi {wi:?}, lane {lane}"), there[lane], back[lane]);
+                assert_close(
+                    &format!("{case}, wi {wi:?}, lane {lane}"),
+                    case.sharpness,
+                    there[lane],
+                    back[lane],
+                );
             }
         }
         assert!(lit > 0 || case.is_black, "{case} scatters nothing");
@@ -131,14 +153,16 @@ fn both_modes_are_adjoint() {
 fn albedo_is_at_most_one_and_weights_average_to_it() {
     for case in cases() {
         let point = case.point();
-        let albedo = sphere(1e-5, |wi| point.eval(vec(wi), Mode::Radiance).f_cos.hero() as f64).value;
+        let albedo =
+            sphere(1e-4, |wi| case.power(vec(wi)) * point.eval(vec(wi), Mode::Radiance).f_cos.hero() as f64)
+                .value;
         assert!(albedo <= 1.0 + 1e-4, "{case}: albedo {albedo}");
         let mut rng = Rng::new(10);
         // Where nothing is drawn nothing is scattered.
-        let weights =
-            Moments::of((0..40_000).map(|_| {
-                point.sample(random(&mut rng), Mode::Radiance).map_or(0.0, |s| s.weight.hero() as f64)
-            }));
+        let weights = Moments::of((0..40_000).map(|_| {
+            let drawn = point.sample(random(&mut rng), Mode::Radiance);
+            drawn.map_or(0.0, |s| case.power(s.wi) * s.weight.hero() as f64)
+        }));
         // 1e-4 is what the quadrature and single precision leave; one alarm of 1e-4 among all cases.
         let test = welch(&weights, &Moments::exact(albedo), 1e-4).at(1e-6);
         assert!(test.passed(), "{case}: {test}");

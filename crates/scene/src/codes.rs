@@ -47,6 +47,8 @@ indigo_decl::codes! {
     PICTURE_SIZE = "E0310", "<renderer_settings><width>200000</width></renderer_settings>";
     /// A plane where light is traced from both ends.
     PLANE_BIDIRECTIONAL = "E0311", "<renderer_settings><bidirectional>true</bidirectional></renderer_settings><plane><normal>0 0 1</normal><dist>0</dist><material_name>white</material_name></plane>";
+    /// A material that is made of itself, or of others too deep.
+    BLEND_CYCLE = "E0312", "(a blend that names itself)";
     /// More media than can be told apart.
     TOO_MANY_MEDIA = "E0320", "(more than 65535 media)";
 }

@@ -18,6 +18,9 @@ pub struct Curve {
 }
 
 impl Curve {
+    /// Changes nothing.
+    pub const IDENTITY: Self = Self { exponent: 1.0, a: 0.0, b: 1.0, c: 0.0 };
+
     /// The final value for a component.
     pub fn apply(&self, x: f64) -> f64 {
         let g = if self.exponent == 1.0 { x } else { x.max(0.0).powf(self.exponent) };
@@ -28,53 +31,43 @@ impl Curve {
 /// A texture: an image and the curve that makes its texels linear.
 ///
 /// The curve is applied to texels, before they are mixed: mixing is right in linear light only.
-/// Integer texels keep their width and go through a table; floating-point texels are converted once.
+/// Integer texels keep their width and go through a table of the curve; floating-point texels are converted
+/// once, unless the curve changes nothing. What textures of one file have in common they share.
 #[derive(Clone, Debug)]
 pub struct Texture {
     width: u32,
     height: u32,
     channels: usize,
-    texels: Arc<Texels>,
+    image: Arc<Image>,
+    /// The curve's values for all integer texels; empty for floating-point ones.
+    table: Arc<[f32]>,
     /// Which uv set of the mesh it is laid on by.
     pub uv_set: u32,
 }
 
-#[derive(Debug)]
-enum Texels {
-    U8(Vec<u8>, Box<[f32]>),
-    U16(Vec<u16>, Box<[f32]>),
-    F32(Vec<f32>),
-}
-
 impl Texture {
     /// From a decoded image.
-    pub fn new(image: Image, curve: Curve, uv_set: u32) -> Self {
-        let table = |levels: u32| -> Box<[f32]> {
+    pub fn new(image: Arc<Image>, curve: Curve, uv_set: u32) -> Self {
+        let table = |levels: u32| -> Arc<[f32]> {
             (0..levels).map(|i| curve.apply(f64::from(i) / f64::from(levels - 1)) as f32).collect()
         };
-        let texels = match image.pixels {
-            Pixels::U8(v) => Texels::U8(v, table(256)),
-            Pixels::U16(v) => Texels::U16(v, table(65536)),
-            Pixels::F32(mut v) => {
-                for x in &mut v {
-                    *x = curve.apply(f64::from(*x)) as f32;
-                }
-                Texels::F32(v)
+        let (image, table) = match &image.pixels {
+            Pixels::U8(_) => (image, table(256)),
+            Pixels::U16(_) => (image, table(65536)),
+            Pixels::F32(_) if curve == Curve::IDENTITY => (image, Arc::default()),
+            Pixels::F32(v) => {
+                let converted = v.iter().map(|&x| curve.apply(f64::from(x)) as f32).collect();
+                (Arc::new(Image { pixels: Pixels::F32(converted), ..*image }), Arc::default())
             }
         };
         Self {
             width: image.width,
             height: image.height,
             channels: usize::from(image.channels),
-            texels: Arc::new(texels),
+            image,
+            table,
             uv_set,
         }
-    }
-
-    /// The same image laid on by another uv set; the texels are shared.
-    #[must_use]
-    pub fn with_uv_set(&self, uv_set: u32) -> Self {
-        Self { uv_set, ..self.clone() }
     }
 
     /// Width and height in texels.
@@ -82,13 +75,14 @@ impl Texture {
         [self.width, self.height]
     }
 
-    /// Bytes of the texels.
+    /// Bytes of the texels and of the curve.
     pub fn memory_bytes(&self) -> usize {
-        match &*self.texels {
-            Texels::U8(v, t) => v.len() + 4 * t.len(),
-            Texels::U16(v, t) => 2 * v.len() + 4 * t.len(),
-            Texels::F32(v) => 4 * v.len(),
-        }
+        let texels = match &self.image.pixels {
+            Pixels::U8(v) => v.len(),
+            Pixels::U16(v) => 2 * v.len(),
+            Pixels::F32(v) => 4 * v.len(),
+        };
+        texels + 4 * self.table.len()
     }
 
     /// Linear RGB at texture coordinates.
@@ -115,6 +109,29 @@ impl Texture {
         (r + g + b) / 3.0
     }
 
+    /// How the scalar of the map changes with u and with v, per unit of each.
+    ///
+    /// Bilinear values have slopes that jump from texel to texel, and a bump map would show its grid. So the
+    /// slope is that of the biquadratic B-spline of the texels, which is the bilinear surface averaged over the
+    /// width of a texel each way: it runs on evenly, and ramps keep their slope exactly.
+    #[inline]
+    pub fn gradient(&self, uv: Vec2) -> [Real; 2] {
+        let (columns, x) = nearest(uv.x, self.width);
+        let (rows, y) = nearest(uv.y, self.height);
+        let (wx, wy) = (spline(x), spline(y));
+        let (sx, sy) = (spline_slope(x), spline_slope(y));
+        let mut slope = [0.0; 2];
+        for (j, &row) in rows.iter().enumerate() {
+            for (i, &column) in columns.iter().enumerate() {
+                let [r, g, b] = self.texel(column, row);
+                let value = (r + g + b) / 3.0;
+                slope[0] += value * sx[i] * wy[j];
+                slope[1] += value * wx[i] * sy[j];
+            }
+        }
+        [slope[0] * self.width as Real, slope[1] * self.height as Real]
+    }
+
     /// The texel of a column and of a row counted from the bottom.
     #[inline]
     fn texel(&self, x: u32, y: u32) -> [Real; 3] {
@@ -122,10 +139,10 @@ impl Texture {
         let i = (row * self.width as usize + x as usize) * self.channels;
         let at = |k: usize| -> Real {
             let k = if self.channels == 1 { i } else { i + k };
-            let v = match &*self.texels {
-                Texels::U8(v, table) => table[usize::from(v[k])],
-                Texels::U16(v, table) => table[usize::from(v[k])],
-                Texels::F32(v) => v[k],
+            let v = match &self.image.pixels {
+                Pixels::U8(v) => self.table[usize::from(v[k])],
+                Pixels::U16(v) => self.table[usize::from(v[k])],
+                Pixels::F32(v) => v[k],
             };
             v as Real
         };
@@ -143,11 +160,37 @@ fn cell(u: Real, n: u32) -> (u32, u32, Real) {
     (i, if i + 1 == n { 0 } else { i + 1 }, (x - i as Real).min(1.0))
 }
 
+/// The texel nearest to a coordinate that wraps, between its two neighbours, and how far beyond it the
+/// coordinate lies, from -1/2 to 1/2.
+#[inline]
+fn nearest(u: Real, n: u32) -> ([u32; 3], Real) {
+    let (low, high, fraction) = cell(u, n);
+    let (middle, beyond) = if fraction < 0.5 { (low, fraction) } else { (high, fraction - 1.0) };
+    let before = if middle == 0 { n - 1 } else { middle - 1 };
+    let after = if middle + 1 == n { 0 } else { middle + 1 };
+    ([before, middle, after], beyond)
+}
+
+/// Weights of the quadratic B-spline for the texels before, at and after the nearest one, `d` beyond it.
+#[inline]
+fn spline(d: Real) -> [Real; 3] {
+    let (a, b) = (0.5 - d, 0.5 + d);
+    [0.5 * a * a, 0.75 - d * d, 0.5 * b * b]
+}
+
+/// Derivatives of [`spline`].
+#[inline]
+fn spline_slope(d: Real) -> [Real; 3] {
+    [d - 0.5, -2.0 * d, d + 0.5]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const LINEAR: Curve = Curve { exponent: 1.0, a: 0.0, b: 1.0, c: 0.0 };
+    fn texture(image: Image, curve: Curve) -> Texture {
+        Texture::new(Arc::new(image), curve, 0)
+    }
 
     fn ramp() -> Image {
         // Two by two, grey: top row 0, 100; bottom row 200, 40.
@@ -156,7 +199,7 @@ mod tests {
 
     #[test]
     fn corners_are_texels_and_v_points_up() {
-        let t = Texture::new(ramp(), LINEAR, 0);
+        let t = texture(ramp(), Curve::IDENTITY);
         let at = |u, v| t.scalar(Vec2::new(u, v)) * 255.0;
         for (u, v, value) in [(0.0, 0.0, 200.0), (0.5, 0.0, 40.0), (0.0, 0.5, 0.0), (0.5, 0.5, 100.0)] {
             assert!((at(u, v) - value).abs() < 1e-3, "({u}, {v}): {}", at(u, v));
@@ -171,7 +214,7 @@ mod tests {
     #[test]
     fn the_curve_is_the_manuals() {
         let curve = Curve { exponent: 2.2, a: 0.5, b: 0.25, c: 0.125 };
-        let t = Texture::new(ramp(), curve, 0);
+        let t = texture(ramp(), curve);
         let x = (200.0f64 / 255.0).powf(2.2);
         let expected = 0.5 * x * x + 0.25 * x + 0.125;
         assert!((t.scalar(Vec2::new(0.0, 0.0)) as f64 - expected).abs() < 1e-6);
@@ -183,8 +226,7 @@ mod tests {
         let as_f32 =
             Image { pixels: Pixels::F32([0.0f32, 100.0, 200.0, 40.0].map(|v| v / 255.0).to_vec()), ..ramp() };
         let curve = Curve { exponent: 1.8, a: 0.1, b: 0.7, c: 0.0 };
-        let (t8, t16, tf) =
-            (Texture::new(ramp(), curve, 0), Texture::new(as_u16, curve, 0), Texture::new(as_f32, curve, 0));
+        let (t8, t16, tf) = (texture(ramp(), curve), texture(as_u16, curve), texture(as_f32, curve));
         for i in 0..100 {
             let uv = Vec2::new(i as Real * 0.137, i as Real * 0.071);
             assert!((t8.scalar(uv) - t16.scalar(uv)).abs() < 1e-5);
@@ -193,10 +235,49 @@ mod tests {
     }
 
     #[test]
+    fn slopes_are_those_of_the_heights() {
+        // h = 0.01 (3 column + 2 row from the bottom) over 16 by 8 texels.
+        let heights = |f: fn(u32, u32) -> f32| Image {
+            width: 16,
+            height: 8,
+            channels: 1,
+            pixels: Pixels::F32((0..8).rev().flat_map(|y| (0..16).map(move |x| f(x, y))).collect()),
+        };
+        let ramp = texture(heights(|x, y| 0.01 * (3 * x + 2 * y) as f32), Curve::IDENTITY);
+        // Away from the seam, where the ramp falls back.
+        for (u, v) in [(0.3, 0.4), (0.5, 0.5), (0.61, 0.77)] {
+            let [du, dv] = ramp.gradient(Vec2::new(u, v));
+            assert!((du - 0.03 * 16.0).abs() < 1e-4 && (dv - 0.02 * 8.0).abs() < 1e-4, "{du} {dv}");
+        }
+        // A wave that repeats: slopes run on across the seam and sum up to nothing.
+        let wave = texture(heights(|x, _| (x as f32 * std::f32::consts::TAU / 16.0).sin()), Curve::IDENTITY);
+        let at = |u: Real| wave.gradient(Vec2::new(u, 0.3))[0];
+        assert!((at(0.0) - at(1.0)).abs() < 1e-4 && (at(1e-4) - at(-1e-4)).abs() < 1e-2);
+        let sum: Real = (0..160).map(|i| at(i as Real / 160.0)).sum();
+        assert!(sum.abs() < 1e-3, "{sum}");
+        // The spline is the wave averaged over a texel twice: its slope is lower by sinc² of 1/16.
+        let lower = ((std::f64::consts::PI / 16.0).sin() / (std::f64::consts::PI / 16.0)).powi(2);
+        let slope = at(0.0) as f64 / (std::f64::consts::TAU * lower);
+        assert!((slope - 1.0).abs() < 0.02, "{slope}");
+    }
+
+    #[test]
+    fn textures_of_one_file_share_its_texels() {
+        let image = Arc::new(ramp());
+        let half = Curve { b: 0.5, ..Curve::IDENTITY };
+        let (a, b) = (Texture::new(image.clone(), Curve::IDENTITY, 0), Texture::new(image.clone(), half, 3));
+        assert!(Arc::ptr_eq(&a.image, &b.image));
+        assert_eq!(b.scalar(Vec2::new(0.0, 0.0)), 0.5 * a.scalar(Vec2::new(0.0, 0.0)));
+        // A texel of eight bits takes a byte.
+        assert_eq!(a.memory_bytes(), 4 + 4 * 256);
+    }
+
+    #[test]
     fn broken_coordinates_are_harmless() {
-        let t = Texture::new(ramp(), LINEAR, 0);
+        let t = texture(ramp(), Curve::IDENTITY);
         for u in [Real::NAN, Real::INFINITY, 1e30, -1e30] {
             assert!(t.scalar(Vec2::new(u, u)).is_finite());
+            assert!(t.gradient(Vec2::new(u, u))[0].is_finite());
         }
     }
 }

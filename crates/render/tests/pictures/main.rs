@@ -11,5 +11,6 @@ mod direct_light;
 mod exposure;
 mod furnace;
 mod lens;
+mod materials;
 mod media;
 mod surfaces;

@@ -1,6 +1,15 @@
 //! `blend`: two materials at once.
+//!
+//! A tree of blends is walked down at each point, by one random number that is spread out again after each
+//! choice: what is left is the constituent with the probability of its share. A blend is linear in its
+//! constituents, so that has the right mean.
 
-use indigo_decl::{Block, Field, Group, Kind, Later, Presence, Range};
+use super::{Material, MaterialContext, MaterialId, MaterialResources};
+use crate::media::MediumId;
+use indigo_decl::{Block, Field, Group, Kind, Later, Node, Presence, Range, codes};
+use indigo_diag::Diagnostic;
+use indigo_math::{Float, Real, Vec2};
+use indigo_texture::TextureId;
 use indigo_texture::declare::TEXTURE;
 
 /// The declaration of `blend`.
@@ -42,3 +51,151 @@ pub static BLOCK: Block = Block::new(
     <b_name>matb</b_name>
 </blend>",
 );
+
+/// How deeply blends may be nested: far beyond what anyone draws, and what a thread's stack holds.
+pub const MAX_DEPTH: u32 = 200;
+
+/// Two materials at once.
+#[derive(Clone, Debug)]
+pub struct Blend {
+    share: Share,
+    a: MaterialId,
+    b: MaterialId,
+    facts: Facts,
+}
+
+/// The share of material b.
+#[derive(Clone, Debug)]
+enum Share {
+    Constant(Real),
+    Map(TextureId),
+}
+
+/// What is known of a material as a constituent.
+#[derive(Clone, Copy, Debug)]
+struct Facts {
+    /// Constituents whose scattering is of delta kind.
+    deltas: u32,
+    /// The one medium inside.
+    medium: Option<MediumId>,
+    may_be_unseen: bool,
+    /// Blends on the longest way down.
+    depth: u32,
+}
+
+impl Facts {
+    fn of(material: &Material) -> Self {
+        match material {
+            Material::Blend(blend) => blend.facts,
+            other => Self {
+                deltas: u32::from(matches!(other, Material::Null | Material::Specular(_))),
+                medium: other.internal_medium(),
+                may_be_unseen: other.may_be_unseen(),
+                depth: 0,
+            },
+        }
+    }
+
+    /// Of both together; an error where they cannot be.
+    fn together(self, other: Self) -> Result<Self, [&'static str; 2]> {
+        let facts = Self {
+            deltas: self.deltas + other.deltas,
+            medium: self.medium.or(other.medium),
+            may_be_unseen: self.may_be_unseen || other.may_be_unseen,
+            depth: 1 + self.depth.max(other.depth),
+        };
+        if facts.deltas > 1 {
+            return Err([
+                "this blend has two materials that are specular or null_material",
+                "at most one in all",
+            ]);
+        }
+        if facts.medium != other.medium.or(self.medium) {
+            return Err([
+                "the materials of this blend have different internal media",
+                "one and the same, or none",
+            ]);
+        }
+        if facts.depth > MAX_DEPTH {
+            return Err(["blends are nested more than 200 deep", "a tree that is not so deep"]);
+        }
+        Ok(facts)
+    }
+}
+
+impl Blend {
+    /// From its element.
+    pub fn build(node: &Node, resources: &mut dyn MaterialResources) -> Self {
+        let share = match node.node("blend_map") {
+            Some(map) => {
+                node.disregard_field("blend_factor");
+                Share::Map(resources.texture(map))
+            }
+            None => Share::Constant(Real::from_f64(node.opt_real("blend_factor").map_or(0.0, |f| f.value))),
+        };
+        let [a, b] = ["a_name", "b_name"].map(|field| resources.material(node, field));
+        let [of_a, of_b] = [a, b].map(|id| Facts::of(resources.built(id)));
+        let facts = of_a.together(of_b).unwrap_or_else(|[fault, expected]| {
+            resources.sink().push(
+                Diagnostic::error(codes::CONTRADICTION, node.span_of("b_name"), fault)
+                    .expected(format!("expected {expected}")),
+            );
+            // Reported once, not again by every blend above.
+            Facts { deltas: 0, medium: None, may_be_unseen: false, depth: 0 }
+        });
+        Self { share, a, b, facts }
+    }
+
+    /// The share of material b at a point, limited to [0, 1].
+    #[inline]
+    fn share(&self, context: &MaterialContext, uv: &impl Fn(u32) -> Vec2) -> Real {
+        match self.share {
+            Share::Constant(share) => share,
+            Share::Map(id) => {
+                let map = &context.textures[id as usize];
+                let share = map.scalar(uv(map.uv_set));
+                // A texel that is no number counts as 0.
+                if share > 0.0 { share.min(1.0) } else { 0.0 }
+            }
+        }
+    }
+
+    /// One of the two materials, with what the choice between them leaves of `choice` in [0, 1).
+    #[inline]
+    pub(super) fn choose(
+        &self,
+        context: &MaterialContext,
+        uv: &impl Fn(u32) -> Vec2,
+        choice: Real,
+    ) -> (MaterialId, Real) {
+        let share = self.share(context, uv);
+        // Rounding must not make a 1 of it, which would choose what has no share.
+        let most = 1.0 - Real::EPSILON;
+        if choice < share {
+            (self.b, (choice / share).min(most))
+        } else {
+            (self.a, ((choice - share) / (1.0 - share)).min(most))
+        }
+    }
+
+    /// See [`SurfaceKind::internal_medium`](super::SurfaceKind::internal_medium): that of the constituent that has one.
+    #[inline]
+    pub(super) fn internal_medium(&self) -> Option<MediumId> {
+        self.facts.medium
+    }
+
+    /// See [`SurfaceKind::may_be_unseen`](super::SurfaceKind::may_be_unseen).
+    pub(super) fn may_be_unseen(&self) -> bool {
+        self.facts.may_be_unseen
+    }
+
+    /// See [`SurfaceKind::unseen_share`](super::SurfaceKind::unseen_share).
+    pub(super) fn unseen_share(&self, context: &MaterialContext, uv: &impl Fn(u32) -> Vec2) -> Real {
+        if !self.facts.may_be_unseen {
+            return 0.0;
+        }
+        let share = self.share(context, uv);
+        let of = |id: MaterialId| context.materials[id as usize].unseen_share(context, uv);
+        (1.0 - share) * of(self.a) + share * of(self.b)
+    }
+}

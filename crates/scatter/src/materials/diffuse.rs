@@ -1,6 +1,6 @@
 //! `diffuse`: a Lambertian surface.
 
-use super::fields::{ALBEDO_SPECTRUM, ALBEDO_TEXTURE, BUMP_MAP, COLOUR_DEPRECATED, LATER};
+use super::fields::{ALBEDO_SPECTRUM, ALBEDO_TEXTURE, BUMP_MAP, COLOUR_DEPRECATED, LATER, bump_map};
 use super::{MaterialContext, MaterialResources, SurfaceKind};
 use crate::reflectance::Reflectance;
 use crate::scatter::{Crossing, LocalSample, Scatter};
@@ -8,6 +8,7 @@ use indigo_decl::{Block, Field, Group, Kind, Node, Presence};
 use indigo_math::warp::{INV_PI, cosine_hemisphere, cosine_hemisphere_pdf};
 use indigo_math::{Real, Vec2, Vec3};
 use indigo_spectrum::{LanePdf, SampledSpectrum, Spectrum};
+use indigo_texture::TextureId;
 
 /// The declaration of `diffuse`.
 pub static BLOCK: Block = Block::new(
@@ -41,24 +42,20 @@ pub static BLOCK: Block = Block::new(
 #[derive(Clone, Debug)]
 pub struct Diffuse {
     albedo: Reflectance,
+    bump: Option<TextureId>,
 }
 
 impl Diffuse {
     /// A surface that scatters nothing.
     pub fn black() -> Self {
-        Self { albedo: Reflectance::Spectrum(Spectrum::BLACK) }
+        Self { albedo: Reflectance::Spectrum(Spectrum::BLACK), bump: None }
     }
 
-    /// From its element. `bump_map` is left unread.
+    /// From its element.
     pub fn build(node: &Node, resources: &mut dyn MaterialResources) -> Self {
-        Self {
-            albedo: Reflectance::build(
-                node,
-                ["albedo_texture", "albedo_spectrum"],
-                Some("colour"),
-                resources,
-            ),
-        }
+        let albedo =
+            Reflectance::build(node, ["albedo_texture", "albedo_spectrum"], Some("colour"), resources);
+        Self { albedo, bump: bump_map(node, resources) }
     }
 
     /// The model at a point.
@@ -68,7 +65,11 @@ impl Diffuse {
     }
 }
 
-impl SurfaceKind for Diffuse {}
+impl SurfaceKind for Diffuse {
+    fn bump_map(&self) -> Option<TextureId> {
+        self.bump
+    }
+}
 
 /// Constant BSDF, for directions on one side of the surface.
 #[derive(Clone, Copy, Debug)]

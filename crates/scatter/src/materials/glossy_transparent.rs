@@ -1,7 +1,32 @@
 //! `glossy_transparent`: a rough surface of a dielectric.
+//!
+//! One reflection or refraction at [`Microfacets`] of the exponent's width, after Walter et al. 2007, equations 20
+//! and 21, with exact reflectances for the indices of the media on both sides at each wavelength. Normals are
+//! drawn as they are seen, and then reflection or refraction by the reflectance, so that every draw has the
+//! weight of the masking alone. Refraction depends on the wavelength: the drawn direction is the hero's, and each
+//! lane has its own density of it.
+//!
+//! Light that meets a second facet is lost. What is left of it at an interface to glass of 1.5, seen from
+//! outside at 0°, 60° and 80°, and from inside at 0°:
+//!
+//! | exponent | 0° | 60° | 80° | inside, 0° |
+//! |---|---|---|---|---|
+//! | 1 | 0.92 | 0.75 | 0.56 | 0.52 |
+//! | 10 | 0.98 | 0.92 | 0.82 | 0.83 |
+//! | 100 | 0.998 | 0.986 | 0.931 | 0.978 |
+//! | 1000 | 1.000 | 0.999 | 0.979 | 0.998 |
+//! | 10000 | 1.000 | 1.000 | 0.998 | 1.000 |
 
-use super::fields::{BUMP_MAP, INTERNAL_MEDIUM_NAME, LATER};
-use indigo_decl::{Block, Field, Kind, Presence, Range};
+use super::fields::{BUMP_MAP, INTERNAL_MEDIUM_NAME, LATER, bump_map};
+use super::{MaterialContext, MaterialResources, SurfaceKind};
+use crate::fresnel::{dielectric, reflectance};
+use crate::media::MediumId;
+use crate::microfacet::Microfacets;
+use crate::scatter::{Crossing, LocalSample, Scatter};
+use indigo_decl::{Block, Field, Kind, Node, Presence, Range};
+use indigo_math::{Float, Real, Vec2, Vec3};
+use indigo_spectrum::{LanePdf, SampledSpectrum};
+use indigo_texture::TextureId;
 
 /// The declaration of `glossy_transparent`.
 pub static BLOCK: Block = Block::new(
@@ -13,8 +38,8 @@ pub static BLOCK: Block = Block::new(
             "exponent",
             Kind::Real,
             Presence::Required,
-            "Exponent of the Phong lobe of reflection and of transmission, from about 1 (broad) to 10000 and \
-             more (nearly smooth).",
+            "Exponent of the Phong lobe of the normals of small facets, which spreads reflection and transmission: \
+             from about 1 (broad) to 10000 and more (nearly smooth).",
         )
         .range(Range::Above(0.0)),
         BUMP_MAP,
@@ -27,3 +52,209 @@ pub static BLOCK: Block = Block::new(
     <exponent>1000</exponent>
 </glossy_transparent>",
 );
+
+/// A rough interface between its medium and another.
+#[derive(Clone, Debug)]
+pub struct GlossyTransparent {
+    medium: MediumId,
+    facets: Microfacets,
+    bump: Option<TextureId>,
+}
+
+impl GlossyTransparent {
+    /// From its element.
+    pub fn build(node: &Node, resources: &mut dyn MaterialResources) -> Self {
+        Self {
+            medium: resources.medium(node, INTERNAL_MEDIUM_NAME.name),
+            facets: Microfacets::of_exponent(Real::from_f64(node.real("exponent"))),
+            bump: bump_map(node, resources),
+        }
+    }
+
+    /// The model at a point; `None` where the indices on both sides are equal, so that light passes
+    /// as if nothing were there.
+    #[inline]
+    pub fn leaf(
+        &self,
+        context: &MaterialContext,
+        _uv: impl Fn(u32) -> Vec2,
+    ) -> Option<GlossyTransparentLeaf> {
+        let eta = context.interface.below / context.interface.above;
+        (!context.interface.is_matched()).then_some(GlossyTransparentLeaf { facets: self.facets, eta })
+    }
+}
+
+impl SurfaceKind for GlossyTransparent {
+    fn bump_map(&self) -> Option<TextureId> {
+        self.bump
+    }
+
+    fn internal_medium(&self) -> Option<MediumId> {
+        Some(self.medium)
+    }
+
+    fn unseen_share(&self, context: &MaterialContext, _uv: &impl Fn(u32) -> Vec2) -> Real {
+        if context.interface.is_matched() { 1.0 } else { 0.0 }
+    }
+}
+
+/// Reflection and refraction at the facets of an interface.
+#[derive(Clone, Copy, Debug)]
+pub struct GlossyTransparentLeaf {
+    facets: Microfacets,
+    /// The index below over that above.
+    eta: SampledSpectrum,
+}
+
+/// Light through a facet, in one lane.
+struct Refraction {
+    /// The facet's normal, above.
+    h: Vec3,
+    /// Its cosine to the direction above.
+    cos_o: Real,
+    /// Its cosine to the direction below, not negative.
+    cos_i: Real,
+    /// Squared, (o·h) + η (i·h).
+    divisor: Real,
+}
+
+impl Refraction {
+    /// The facet that refracts between `o` above and `i` below; `None` where none does.
+    #[inline]
+    fn between(o: Vec3, i: Vec3, eta: Real) -> Option<Self> {
+        let sum = (o + i * eta).try_normalized()?;
+        let h = if sum.z < 0.0 { -sum } else { sum };
+        let (cos_o, cos_i) = (o.dot(h), -i.dot(h));
+        if cos_o <= 0.0 || cos_i <= 0.0 {
+            return None;
+        }
+        let root = cos_o - eta * cos_i;
+        let divisor = root * root;
+        (divisor > 0.0).then_some(Self { h, cos_o, cos_i, divisor })
+    }
+}
+
+impl GlossyTransparentLeaf {
+    #[inline]
+    fn transmitted(&self, o: Vec3, i: Vec3, eta: Real) -> Real {
+        let Some(r) = Refraction::between(o, i, eta) else { return 0.0 };
+        // What is high is seen from above and hidden from below: Smith's two factors on their own.
+        let seen = self.facets.seen_over_cos(o) * self.facets.seen_over_cos(-i);
+        let through = 1.0 - reflectance(r.cos_o, r.cos_i, eta);
+        r.cos_o * r.cos_i * eta * through * self.facets.density(r.h) * seen / r.divisor
+    }
+
+    /// Density of `i` below for a view `o` above.
+    #[inline]
+    fn pdf_transmitted(&self, o: Vec3, i: Vec3, eta: Real) -> Real {
+        let Some(r) = Refraction::between(o, i, eta) else { return 0.0 };
+        let through = 1.0 - reflectance(r.cos_o, r.cos_i, eta);
+        through * self.facets.pdf_over_dot(o, r.h) * r.cos_o * eta * eta * r.cos_i / r.divisor
+    }
+}
+
+impl Scatter for GlossyTransparentLeaf {
+    #[inline]
+    fn f(&self, wo: Vec3, wi: Vec3, crossing: Crossing) -> SampledSpectrum {
+        match crossing {
+            Crossing::Reflect => {
+                let Some(h) = (wo + wi).try_normalized() else { return SampledSpectrum::ZERO };
+                let gloss = self.facets.density(h) * self.facets.shared_over_cosines(wo, wi);
+                self.eta.map(|eta| gloss * dielectric(wo.dot(h), eta).reflectance)
+            }
+            Crossing::Down => self.eta.map(|eta| self.transmitted(wo, wi, eta)),
+            Crossing::Up => self.eta.map(|eta| self.transmitted(wi, wo, eta)),
+        }
+    }
+
+    #[inline]
+    fn pdf(&self, wo: Vec3, wi: Vec3, crossing: Crossing) -> LanePdf {
+        match crossing {
+            Crossing::Reflect => {
+                let Some(h) = (wo + wi).try_normalized() else { return LanePdf::ZERO };
+                let drawn = 0.25 * self.facets.pdf_over_dot(wo, h);
+                LanePdf(self.eta.map(|eta| drawn * dielectric(wo.dot(h), eta).reflectance).0)
+            }
+            Crossing::Down => LanePdf(self.eta.map(|eta| self.pdf_transmitted(wo, wi, eta)).0),
+            // The same from the other side.
+            Crossing::Up => {
+                let (o, i) = (turned(wo), turned(wi));
+                LanePdf(self.eta.map(|eta| self.pdf_transmitted(o, i, 1.0 / eta)).0)
+            }
+        }
+    }
+
+    #[inline]
+    fn sample(&self, wo: Vec3, u: [Real; 3]) -> Option<LocalSample> {
+        let h = self.facets.sample(wo, [u[0], u[1]]);
+        let (cos, eta) = (wo.dot(h), self.eta.hero());
+        let at_facet = dielectric(cos, eta);
+        // A direction on the wrong side has met a facet that sends it on to another: lost.
+        if u[2] < at_facet.reflectance {
+            let wi = h * (2.0 * cos) - wo;
+            return (wi.z > 0.0).then(|| LocalSample::smooth(wi, Crossing::Reflect));
+        }
+        let wi = (h * (cos / eta - at_facet.cos_transmitted) - wo / eta).normalized();
+        (wi.z < 0.0).then(|| LocalSample::smooth(wi, Crossing::Down))
+    }
+
+    #[inline]
+    fn eta(&self) -> SampledSpectrum {
+        self.eta
+    }
+}
+
+/// A direction in the frame that has the other side above.
+#[inline]
+fn turned(d: Vec3) -> Vec3 {
+    Vec3::new(d.x, d.y, -d.z)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use indigo_testkit::rng::Rng;
+
+    /// The mean share of light that is not lost, over draws.
+    fn kept(exponent: Real, degrees: f64, eta: Real) -> f64 {
+        let leaf = GlossyTransparentLeaf {
+            facets: Microfacets::of_exponent(exponent),
+            eta: SampledSpectrum::splat(eta),
+        };
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        let o = Vec3::new(sin as Real, 0.0, cos as Real);
+        let mut rng = Rng::new(3);
+        let n = 60_000;
+        let weight = |rng: &mut Rng| {
+            let u = [0; 3].map(|_| rng.uniform_f32() as Real);
+            let Some(s) = leaf.sample(o, u) else { return 0.0 };
+            let f = leaf.f(o, s.wi, s.crossing).hero() * s.wi.z.abs();
+            // Power: the symmetric f is the radiance's times η, and power is radiance times η².
+            let power = if s.crossing == Crossing::Reflect { f } else { f * eta };
+            (power / leaf.pdf(o, s.wi, s.crossing).hero()) as f64
+        };
+        (0..n).map(|_| weight(&mut rng)).sum::<f64>() / f64::from(n)
+    }
+
+    /// The table of the module's documentation, within what chance leaves (three standard errors are below 0.004).
+    #[test]
+    fn losses_are_as_stated() {
+        for (exponent, outside, inside) in LOSSES {
+            for (degrees, stated) in [0.0, 60.0, 80.0].into_iter().zip(outside) {
+                let kept = kept(exponent, degrees, 1.5);
+                assert!((kept - stated).abs() < 0.005, "{exponent} at {degrees}: {kept}");
+            }
+            let kept = kept(exponent, 0.0, 1.0 / 1.5);
+            assert!((kept - inside).abs() < 0.005, "{exponent} from inside: {kept}");
+        }
+    }
+
+    /// Exponent, what is left from outside at 0°, 60° and 80°, and from inside at 0°.
+    const LOSSES: [(Real, [f64; 3], f64); 5] = [
+        (1.0, [0.923, 0.752, 0.562], 0.523),
+        (10.0, [0.979, 0.916, 0.821], 0.825),
+        (100.0, [0.998, 0.986, 0.931], 0.978),
+        (1000.0, [1.0, 0.999, 0.979], 0.998),
+        (10_000.0, [1.0, 1.0, 0.998], 1.0),
+    ];
+}

@@ -15,7 +15,7 @@ use crate::scatter::{Crossing, LocalSample, Scatter};
 use indigo_decl::{Alternatives, Block, Field, Kind, Later, Node, Presence};
 use indigo_diag::Sink;
 use indigo_math::{Real, Vec2, Vec3};
-use indigo_spectrum::{LanePdf, SampledSpectrum, SampledWavelengths};
+use indigo_spectrum::{LanePdf, SampledSpectrum, SampledWavelengths, Spectrum};
 use indigo_texture::{Texture, TextureId};
 
 /// What the evaluation of a material may look at.
@@ -53,10 +53,20 @@ impl Interface {
     }
 }
 
+/// Number of a material in a scene's list.
+pub type MaterialId = u32;
+
 /// What the building of a material needs of the scene.
 pub trait MaterialResources {
     /// The image map that a texture element asks for; whatever is wrong with it has been reported.
     fn texture(&mut self, node: &Node) -> TextureId;
+    /// The complex index of refraction, n and k by wavelength, of the file that a field names; whatever is wrong
+    /// with it has been reported.
+    fn complex_index(&mut self, node: &Node, field: &str) -> [Spectrum; 2];
+    /// The material that a field names; whatever is wrong with it has been reported.
+    fn material(&mut self, node: &Node, field: &str) -> MaterialId;
+    /// A material that was built before.
+    fn built(&self, id: MaterialId) -> &Material;
     /// The medium that a field names; whatever is wrong with it has been reported.
     fn medium(&mut self, node: &Node, field: &str) -> MediumId;
     /// Where to report what is wrong.
@@ -65,6 +75,11 @@ pub trait MaterialResources {
 
 /// What a material says of the surface itself, beside how it scatters. The defaults are those of most.
 pub trait SurfaceKind {
+    /// The heights that bend the shading normal.
+    fn bump_map(&self) -> Option<TextureId> {
+        None
+    }
+
     /// The medium that fills the inside of the object, if the material is the interface of one. It is the
     /// same all over the surface and whatever becomes of the light that crosses it.
     fn internal_medium(&self) -> Option<MediumId> {
@@ -88,17 +103,20 @@ pub trait SurfaceKind {
 ///
 /// A line `name => Material / Leaf` registers a material of the file `name.rs`: `Material` is a
 /// [`SurfaceKind`] and has `build(&Node, &mut dyn MaterialResources)` and `leaf(&MaterialContext, uv)`, which
-/// gives a leaf or, where it may pass light unseen, an option of one; `Leaf` is a [`Scatter`]. `declared` lists the elements that are read but that nothing renders yet.
+/// gives a leaf or, where it may pass light unseen, an option of one; `Leaf` is a [`Scatter`].
+/// `blend` and `null_material` have no leaves, and stand beside the list.
 macro_rules! registry {
-    ($($name:ident => $material:ident / $leaf:ident,)* ; declared $($only:ident,)*) => {
+    ($($name:ident => $material:ident / $leaf:ident,)*) => {
         /// The kinds of material.
-        pub static KINDS: &[&Block] = &[$(&$name::BLOCK,)* $(&$only::BLOCK,)* &null_material::BLOCK];
+        pub static KINDS: &[&Block] = &[$(&$name::BLOCK,)* &blend::BLOCK, &null_material::BLOCK];
 
         /// A material as the scene holds it.
         #[derive(Clone, Debug)]
         pub enum Material {
             /// Does nothing to light.
             Null,
+            /// Is one material or another.
+            Blend(blend::Blend),
             $(#[doc = concat!("See [`", stringify!($name), "`].")] $material($name::$material),)*
         }
 
@@ -109,24 +127,44 @@ macro_rules! registry {
         }
 
         impl Material {
-            /// From the element of a kind of material; `None` where nothing renders that kind yet.
-            pub fn build(node: &Node, resources: &mut dyn MaterialResources) -> Option<Self> {
-                if std::ptr::eq(node.block, &raw const null_material::BLOCK) {
-                    node.mark_used();
-                    return Some(Self::Null);
-                }
+            /// From the element of a kind of material.
+            pub fn build(node: &Node, resources: &mut dyn MaterialResources) -> Self {
                 $(if std::ptr::eq(node.block, &raw const $name::BLOCK) {
-                    return Some(Self::$material($name::$material::build(node, resources)));
+                    return Self::$material($name::$material::build(node, resources));
                 })*
-                None
+                if std::ptr::eq(node.block, &raw const blend::BLOCK) {
+                    return Self::Blend(blend::Blend::build(node, resources));
+                }
+                node.mark_used();
+                Self::Null
+            }
+
+            /// What a blend is at a point by the context's choice: a material that is not a blend.
+            #[inline]
+            pub fn chosen<'a>(&'a self, context: &MaterialContext<'a>, uv: &impl Fn(u32) -> Vec2) -> &'a Self {
+                let (mut material, mut choice) = (self, context.choice);
+                while let Self::Blend(blend) = material {
+                    let (id, rest) = blend.choose(context, uv, choice);
+                    (material, choice) = (&context.materials[id as usize], rest);
+                }
+                material
+            }
+
+            /// See [`SurfaceKind::bump_map`]; a blend has none of its own.
+            #[inline]
+            pub fn bump_map(&self) -> Option<TextureId> {
+                match self {
+                    Self::Null | Self::Blend(_) => None,
+                    $(Self::$material(m) => m.bump_map(),)*
+                }
             }
 
             /// The scattering model at a point, whose texture coordinates `uv` gives for each set;
-            /// `None` where the material does nothing to light.
+            /// `None` where the material does nothing to light. A blend is to be [chosen](Self::chosen) first.
             #[inline]
             pub fn leaf(&self, context: &MaterialContext, uv: impl Fn(u32) -> Vec2) -> Option<Leaf> {
                 match self {
-                    Self::Null => None,
+                    Self::Null | Self::Blend(_) => None,
                     $(Self::$material(m) => {
                         let leaf: Option<$name::$leaf> = m.leaf(context, uv).into();
                         leaf.map(Leaf::$material)
@@ -139,6 +177,7 @@ macro_rules! registry {
             pub fn internal_medium(&self) -> Option<MediumId> {
                 match self {
                     Self::Null => None,
+                    Self::Blend(blend) => blend.internal_medium(),
                     $(Self::$material(m) => m.internal_medium(),)*
                 }
             }
@@ -147,16 +186,18 @@ macro_rules! registry {
             pub fn may_be_unseen(&self) -> bool {
                 match self {
                     Self::Null => true,
+                    Self::Blend(blend) => blend.may_be_unseen(),
                     $(Self::$material(m) => m.may_be_unseen(),)*
                 }
             }
 
             /// See [`SurfaceKind::unseen_share`].
             #[inline]
-            pub fn unseen_share(&self, context: &MaterialContext, uv: impl Fn(u32) -> Vec2) -> Real {
+            pub fn unseen_share(&self, context: &MaterialContext, uv: &impl Fn(u32) -> Vec2) -> Real {
                 match self {
                     Self::Null => 1.0,
-                    $(Self::$material(m) => m.unseen_share(context, &uv),)*
+                    Self::Blend(blend) => blend.unseen_share(context, uv),
+                    $(Self::$material(m) => m.unseen_share(context, uv),)*
                 }
             }
         }
@@ -205,10 +246,8 @@ registry! {
     oren_nayar => OrenNayar / OrenNayarLeaf,
     diffuse_transmitter => DiffuseTransmitter / DiffuseTransmitterLeaf,
     specular => Specular / SpecularLeaf,
-    ; declared
-    phong,
-    glossy_transparent,
-    blend,
+    phong => Phong / PhongLeaf,
+    glossy_transparent => GlossyTransparent / GlossyTransparentLeaf,
 }
 
 impl Material {

@@ -17,7 +17,7 @@
 //! | 1, 0.8 | 0.099 | 0.185 | 0.247 | 0.327 |
 //! | 1, 1 | 0.089 | 0.220 | 0.299 | 0.242 |
 
-use super::fields::{ALBEDO_SPECTRUM, ALBEDO_TEXTURE, BUMP_MAP, LATER};
+use super::fields::{ALBEDO_SPECTRUM, ALBEDO_TEXTURE, BUMP_MAP, LATER, bump_map};
 use super::{MaterialContext, MaterialResources, SurfaceKind};
 use crate::directional_albedo::{AlbedoRow, integral};
 use crate::reflectance::Reflectance;
@@ -27,6 +27,7 @@ use indigo_math::elementary::{acos, sin_cos_turns};
 use indigo_math::warp::{INV_PI, cosine_hemisphere, cosine_hemisphere_pdf, uniform_hemisphere};
 use indigo_math::{Float, Real, Vec2, Vec3};
 use indigo_spectrum::{LanePdf, SampledSpectrum};
+use indigo_texture::TextureId;
 
 /// The declaration of `oren_nayar`.
 pub static BLOCK: Block = Block::new(
@@ -66,14 +67,15 @@ pub struct OrenNayar {
     albedo: Reflectance,
     facets: Facets,
     row: AlbedoRow,
+    bump: Option<TextureId>,
 }
 
 impl OrenNayar {
-    /// From its element. `bump_map` is read by all materials alike.
+    /// From its element.
     pub fn build(node: &Node, resources: &mut dyn MaterialResources) -> Self {
         let albedo = Reflectance::build(node, ["albedo_texture", "albedo_spectrum"], None, resources);
         let (facets, row) = Facets::of_deviation(node.real("sigma"));
-        Self { albedo, facets, row }
+        Self { albedo, facets, row, bump: bump_map(node, resources) }
     }
 
     /// The model at a point.
@@ -84,6 +86,12 @@ impl OrenNayar {
         // One bounce scatters Ē, and of the rest, after each bounce, the same share comes out.
         let between = albedo.map(|a| a * a * average / (1.0 - a * (1.0 - average)));
         OrenNayarLeaf { albedo, between, facets: self.facets, row: self.row }
+    }
+}
+
+impl SurfaceKind for OrenNayar {
+    fn bump_map(&self) -> Option<TextureId> {
+        self.bump
     }
 }
 
@@ -157,8 +165,6 @@ impl Facets {
         2.0 * std::f64::consts::TAU * (quarter([0.0, 0.25]) + quarter([0.25, 0.5]))
     }
 }
-
-impl SurfaceKind for OrenNayar {}
 
 /// Facets of one albedo.
 ///

@@ -4,7 +4,7 @@
 //! of its own at each. A refracted ray stands for the hero and for the lanes that have its index: the others
 //! would have gone another way, so their density is 0 (Wilkie et al. 2014, section 4).
 
-use super::fields::{BUMP_MAP, INTERNAL_MEDIUM_NAME, LATER};
+use super::fields::{BUMP_MAP, INTERNAL_MEDIUM_NAME, LATER, bump_map};
 use super::{MaterialContext, MaterialResources, SurfaceKind};
 use crate::fresnel::dielectric;
 use crate::media::MediumId;
@@ -12,6 +12,7 @@ use crate::scatter::{Crossing, Delta, LocalSample, Scatter};
 use indigo_decl::{Block, Field, Kind, Node, Presence};
 use indigo_math::{Real, Vec2, Vec3};
 use indigo_spectrum::{LanePdf, SampledSpectrum};
+use indigo_texture::TextureId;
 
 /// The declaration of `specular`.
 pub static BLOCK: Block = Block::new(
@@ -42,14 +43,16 @@ pub static BLOCK: Block = Block::new(
 pub struct Specular {
     medium: MediumId,
     is_transparent: bool,
+    bump: Option<TextureId>,
 }
 
 impl Specular {
-    /// From its element. `bump_map` is left unread.
+    /// From its element.
     pub fn build(node: &Node, resources: &mut dyn MaterialResources) -> Self {
         Self {
             medium: resources.medium(node, INTERNAL_MEDIUM_NAME.name),
             is_transparent: node.bool("transparent"),
+            bump: bump_map(node, resources),
         }
     }
 
@@ -64,6 +67,10 @@ impl Specular {
 }
 
 impl SurfaceKind for Specular {
+    fn bump_map(&self) -> Option<TextureId> {
+        self.bump
+    }
+
     fn internal_medium(&self) -> Option<MediumId> {
         Some(self.medium)
     }

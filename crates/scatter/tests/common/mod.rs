@@ -6,9 +6,10 @@ use indigo_igs::{Limits, read_document};
 use indigo_math::{Real, Vec2, Vec3};
 use indigo_scatter::materials::{KINDS, MATERIAL};
 use indigo_scatter::{
-    Interface, Leaf, Material, MaterialContext, MaterialResources, MediumId, Scatter, ShadingPoint,
+    Interface, Leaf, Material, MaterialContext, MaterialId, MaterialResources, MediumId, Scatter,
+    ShadingPoint,
 };
-use indigo_spectrum::{SampledSpectrum, SampledWavelengths};
+use indigo_spectrum::{SampledSpectrum, SampledWavelengths, Spectrum};
 use indigo_texture::TextureId;
 use std::fmt;
 
@@ -24,16 +25,27 @@ const EXAMPLES: &[&str] = &[
     "<oren_nayar><sigma>0.12</sigma><albedo_spectrum><uniform><value>1</value></uniform></albedo_spectrum></oren_nayar>",
     "<oren_nayar><sigma>1</sigma><albedo_spectrum><uniform><value>1</value></uniform></albedo_spectrum></oren_nayar>",
     "<oren_nayar><sigma>0.6</sigma><albedo_spectrum><rgb><rgb>0.9 0.5 0.1</rgb></rgb></albedo_spectrum></oren_nayar>",
+    "<phong><ior>1.5</ior><exponent>1</exponent><diffuse_albedo_spectrum><uniform><value>1</value></uniform></diffuse_albedo_spectrum></phong>",
+    "<phong><ior>2.5</ior><exponent>100</exponent><diffuse_albedo_spectrum><rgb><rgb>0.9 0.5 0.1</rgb></rgb></diffuse_albedo_spectrum></phong>",
+    "<phong><ior>1.3</ior><exponent>30</exponent></phong>",
+    "<phong><nk_data>gold.nk</nk_data><exponent>0.1</exponent></phong>",
+    "<phong><nk_data>gold.nk</nk_data><exponent>60</exponent></phong>",
+    "<phong><specular_reflectivity_spectrum><uniform><value>1</value></uniform></specular_reflectivity_spectrum><exponent>3</exponent></phong>",
+    "<glossy_transparent><internal_medium_name>glass</internal_medium_name><exponent>1</exponent></glossy_transparent>",
+    "<glossy_transparent><internal_medium_name>glass</internal_medium_name><exponent>60</exponent></glossy_transparent>",
 ];
 
-/// Air above, glass below.
-const INTERFACE: Interface = Interface { above: SampledSpectrum::ONE, below: SampledSpectrum::splat(1.5) };
+/// Air above, and below a glass that is more dispersive than any real one: Cauchy's A = 1.45, B = 0.02 µm².
+fn interface(lambda: &SampledWavelengths) -> Interface {
+    let glass = SampledSpectrum(lambda.lambda.map(|nm| 1.45 + 0.02 / (nm * nm * 1e-6)));
+    Interface { above: SampledSpectrum::ONE, below: glass }
+}
 
-/// Angles between the view and the geometric normal, in degrees.
-const ANGLES: [f64; 4] = [0.0, 30.0, 60.0, 85.0];
-/// Angles between the shading normal and the geometric one, in degrees; a positive one leans away
-/// from the view, so that at the flattest angle the view is below the shading normal's horizon.
-const TILTS: [f64; 3] = [0.0, 25.0, -40.0];
+/// Places: the angle between the view and the geometric normal, and that between the shading normal and the
+/// geometric one, in degrees. A positive one leans away from the view, so that at the flattest angle the view
+/// is below the shading normal's horizon.
+const PLACES: [(f64, f64); 6] =
+    [(0.0, 0.0), (60.0, 0.0), (85.0, 0.0), (0.0, 25.0), (30.0, -40.0), (85.0, 25.0)];
 
 /// A model with its text.
 pub struct Example {
@@ -41,14 +53,27 @@ pub struct Example {
     pub kind: &'static str,
     /// Its element.
     pub text: &'static str,
+    /// Whether it is seen from inside the medium, where it has one.
+    is_inside: bool,
     material: Material,
 }
 
 impl Example {
     /// The model at some wavelengths.
     pub fn leaf(&self, lambda: &SampledWavelengths) -> Leaf {
-        let context =
-            MaterialContext { textures: &[], materials: &[], lambda, interface: INTERFACE, choice: 0.5 };
+        self.leaf_seen(lambda, self.is_inside)
+    }
+
+    /// The model seen from the other side.
+    pub fn leaf_behind(&self, lambda: &SampledWavelengths) -> Leaf {
+        self.leaf_seen(lambda, !self.is_inside)
+    }
+
+    fn leaf_seen(&self, lambda: &SampledWavelengths, is_inside: bool) -> Leaf {
+        let Interface { above, below } = interface(lambda);
+        let interface =
+            if is_inside { Interface { above: below, below: above } } else { Interface { above, below } };
+        let context = MaterialContext { textures: &[], materials: &[], lambda, interface, choice: 0.5 };
         self.material.leaf(&context, |_| Vec2::new(0.3, 0.6)).expect("a material that does something")
     }
 }
@@ -59,8 +84,10 @@ pub struct Case {
     pub kind: &'static str,
     /// Its element.
     pub text: &'static str,
-    /// The model.
-    pub leaf: Leaf,
+    leaf: Leaf,
+    /// The model from the other side.
+    leaf_behind: Leaf,
+    is_inside: bool,
     /// Geometric normal.
     pub n_g: Vec3,
     /// Shading normal.
@@ -70,6 +97,8 @@ pub struct Case {
     /// How far the shading normal leans.
     pub tilt: f64,
     angle: f64,
+    /// How much more than a flat function the model makes of a rounding of its directions.
+    pub sharpness: Real,
     /// Whether it is known to scatter nothing.
     pub is_black: bool,
 }
@@ -82,13 +111,22 @@ impl Case {
 
     /// The same seen from elsewhere.
     pub fn from(&self, wo: Vec3) -> ShadingPoint {
-        ShadingPoint::new(self.leaf, self.n_g, self.n_s, wo)
+        let leaf = if wo.dot(self.n_g) < 0.0 { self.leaf_behind } else { self.leaf };
+        ShadingPoint::new(leaf, self.n_g, self.n_s, wo)
+    }
+
+    /// What makes power of the hero's radiance that comes along `wi`: the square of its index there over that
+    /// where it goes (radiance over squared index is what refraction keeps).
+    pub fn power(&self, wi: Vec3) -> f64 {
+        let eta = self.leaf.eta().hero() as f64;
+        if wi.dot(self.n_g) < 0.0 { eta * eta } else { 1.0 }
     }
 }
 
 impl fmt::Display for Case {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} at {}°, normal leaning {}°", self.text, self.angle, self.tilt)
+        let inside = if self.is_inside { ", inside" } else { "" };
+        write!(f, "{} at {}°{inside}, normal leaning {}°", self.text, self.angle, self.tilt)
     }
 }
 
@@ -106,21 +144,33 @@ pub fn cases() -> Vec<Case> {
     let lambda = wavelengths(0.4);
     let mut cases = vec![];
     for example in examples() {
-        for (angle, tilt) in ANGLES.into_iter().flat_map(|a| TILTS.map(|t| (a, t))) {
+        for (angle, tilt) in PLACES {
             cases.push(Case {
                 kind: example.kind,
                 text: example.text,
                 leaf: example.leaf(&lambda),
+                leaf_behind: example.leaf_behind(&lambda),
+                is_inside: example.is_inside,
                 n_g: Vec3::new(0.0, 0.0, 1.0),
                 n_s: direction(-tilt),
                 wo: direction(angle),
                 tilt,
                 angle,
+                sharpness: sharpness(example.text),
                 is_black: example.text.contains("<value>0</value>"),
             });
         }
     }
     cases
+}
+
+/// A lobe of normals of exponent n is √(2/n) wide, and so much steeper than flat; refraction finds the normal
+/// from a sum of directions that nearly cancel, a third of them in glass.
+fn sharpness(text: &str) -> Real {
+    let exponent = text.split("<exponent>").nth(1).and_then(|rest| rest.split('<').next());
+    let n: Real = exponent.map_or(0.0, |n| n.parse().expect("a number"));
+    let refraction = if text.contains("<glossy_transparent>") { 3.0 } else { 1.0 };
+    refraction * (1.0 + (0.5 * n).sqrt())
 }
 
 /// The models of which directions can be asked: those that are not of delta kind alone.
@@ -132,20 +182,25 @@ pub fn examples() -> Vec<Example> {
 /// All models that are rendered: of each kind the declaration's example, and then [`EXAMPLES`].
 pub fn all_examples() -> Vec<Example> {
     let declared = KINDS.iter().map(|block| block.example);
-    declared.chain(EXAMPLES.iter().copied()).filter_map(example).collect()
+    declared.chain(EXAMPLES.iter().copied()).flat_map(example).collect()
 }
 
-/// The model of an element; `None` where its kind is read but not rendered, or does nothing to light.
-fn example(text: &'static str) -> Option<Example> {
+/// The model of an element, from both sides where they differ; nothing where it has no leaf.
+fn example(text: &'static str) -> Vec<Example> {
     let mut sink = Sink::new();
     let file = format!("<material><name>m</name>{text}</material>");
     let root = read_document("m", &Text(file), &mut SourceMap::default(), &mut sink, &Limits::default());
     let node = bind(root.expect("readable text"), &MATERIAL, &mut sink);
     assert!(!sink.has_errors(), "{text}: {:?}", sink.diagnostics());
     let kind = node.alternative().expect("a kind of material");
-    let material = Material::build(kind, &mut Plain(sink))?;
-    let name = kind.block.name;
-    (!material.is_invisible()).then_some(Example { kind: name, text, material })
+    let material = Material::build(kind, &mut Plain { sink, other: Material::black() });
+    let kind = kind.block.name;
+    let sides: &[bool] = match material {
+        Material::Null | Material::Blend(_) => &[],
+        _ if material.internal_medium().is_some() => &[false, true],
+        _ => &[false],
+    };
+    sides.iter().map(|&is_inside| Example { kind, text, is_inside, material: material.clone() }).collect()
 }
 
 struct Text(String);
@@ -156,12 +211,32 @@ impl Resolver for Text {
     }
 }
 
-/// Materials without files.
-struct Plain(Sink);
+/// Materials without files, but for gold's index.
+struct Plain {
+    sink: Sink,
+    other: Material,
+}
 
 impl MaterialResources for Plain {
     fn texture(&mut self, node: &Node) -> TextureId {
         panic!("the examples have no textures, but {} asks for one", node.block.name)
+    }
+
+    fn complex_index(&mut self, _node: &Node, _field: &str) -> [Spectrum; 2] {
+        // Johnson and Christy 1972, every 50 nm from 400 on.
+        let table = |values: &[f64]| Spectrum::regular_tabulated(400e-9, 700e-9, values).expect("a table");
+        [
+            table(&[1.469, 1.416, 0.863, 0.331, 0.200, 0.162, 0.161]),
+            table(&[1.953, 1.904, 1.862, 2.324, 3.014, 3.562, 4.034]),
+        ]
+    }
+
+    fn material(&mut self, _node: &Node, _field: &str) -> MaterialId {
+        0
+    }
+
+    fn built(&self, _id: MaterialId) -> &Material {
+        &self.other
     }
 
     fn medium(&mut self, _node: &Node, _field: &str) -> MediumId {
@@ -169,6 +244,6 @@ impl MaterialResources for Plain {
     }
 
     fn sink(&mut self) -> &mut Sink {
-        &mut self.0
+        &mut self.sink
     }
 }

@@ -3,12 +3,15 @@
 use super::Context;
 use super::media::MediumTable;
 use super::names::Names;
+use super::textures::TextureTable;
 use crate::codes;
 use indigo_decl::Node;
 use indigo_diag::{Diagnostic, Sink, Span};
-use indigo_formats::image;
-use indigo_scatter::{Material, MaterialResources, Medium, MediumId};
-use indigo_texture::{Curve, Texture, TextureId};
+use indigo_formats::nk;
+use indigo_scatter::materials::blend;
+use indigo_scatter::{Material, MaterialId, MaterialResources, Medium, MediumId};
+use indigo_spectrum::Spectrum;
+use indigo_texture::{Texture, TextureId};
 use std::collections::{HashMap, HashSet};
 
 /// The uv sets that a surface offers.
@@ -20,19 +23,24 @@ pub(super) enum UvSets<'a> {
     Natural,
 }
 
+/// A material by its name and, where it has textures, the uv sets of the surface that it is on.
+type Key = (String, Option<Vec<(String, u32)>>);
+
 /// All materials and textures in use.
 pub(super) struct MaterialTable<'a> {
     names: Names<'a>,
     materials: Vec<Material>,
     textures: TextureTable,
     media: MediumTable<'a>,
-    /// Materials built, by name and by the uv sets that their textures found.
-    built: HashMap<(String, Vec<u32>), u32>,
+    /// Materials with textures.
+    textured: HashMap<Key, MaterialId>,
+    /// Materials without textures serve every surface.
+    plain: HashMap<String, MaterialId>,
     /// Names that anything in the scene uses.
     asked_for: HashSet<String>,
-    /// Materials without textures serve every mesh.
-    plain: HashMap<String, Option<u32>>,
-    black: Option<u32>,
+    /// Blends whose constituents are being built, from the outermost in.
+    open: Vec<String>,
+    black: Option<MaterialId>,
 }
 
 impl<'a> MaterialTable<'a> {
@@ -42,28 +50,82 @@ impl<'a> MaterialTable<'a> {
             materials: vec![],
             textures: TextureTable::default(),
             media: MediumTable::new(root, sink),
-            built: HashMap::new(),
-            asked_for: HashSet::new(),
+            textured: HashMap::new(),
             plain: HashMap::new(),
+            asked_for: HashSet::new(),
+            open: vec![],
             black: None,
         }
     }
 
     /// The number of a material by name on a surface with certain uv sets. What is wrong is reported,
     /// and the number of some material returned all the same.
-    pub(super) fn get(&mut self, name: &str, span: Span, uv: UvSets, context: &mut Context) -> u32 {
-        if let Some(known) = self.plain.get(name) {
-            return known.unwrap_or_else(|| self.black());
+    pub(super) fn get(&mut self, name: &str, span: Span, uv: UvSets, context: &mut Context) -> MaterialId {
+        if let Some(&known) = self.plain.get(name) {
+            return known;
+        }
+        let sets = match uv {
+            UvSets::Named(sets) => Some(sets.to_vec()),
+            UvSets::Natural => None,
+        };
+        let key = (name.to_owned(), sets);
+        if let Some(&known) = self.textured.get(&key) {
+            return known;
         }
         self.asked_for.insert(name.to_owned());
-        let built = self
-            .names
-            .find(name, span, context.sink)
-            .and_then(|node| self.build(name, node, span, uv, context));
-        built.unwrap_or_else(|| {
-            self.plain.insert(name.to_owned(), None);
-            self.black()
-        })
+        let node = self.names.find(name, span, context.sink);
+        let may_open = self.may_open(name, span, context.sink);
+        // Without a kind it is incomplete, which was reported.
+        let Some(kind) = node.and_then(Node::alternative).filter(|_| may_open) else {
+            // Reported as what it is, not as unread.
+            node.into_iter().for_each(Node::disregard);
+            let black = self.black();
+            self.plain.insert(name.to_owned(), black);
+            return black;
+        };
+        self.open.push(name.to_owned());
+        let mut resources = Resources { table: self, context, uv, user: span, uses_textures: false };
+        let material = Material::build(kind, &mut resources);
+        let uses_textures = resources.uses_textures;
+        self.open.pop();
+        let id = self.add(material);
+        if uses_textures {
+            self.textured.insert(key, id);
+        } else {
+            self.plain.insert(key.0, id);
+        }
+        id
+    }
+
+    /// Whether a material may be begun: not within itself, nor too deep in others.
+    fn may_open(&self, name: &str, span: Span, sink: &mut Sink) -> bool {
+        if let Some(first) = self.open.iter().position(|open| open == name) {
+            let mut round = self.open[first..].to_vec();
+            round.push(name.to_owned());
+            sink.push(
+                Diagnostic::error(
+                    codes::BLEND_CYCLE,
+                    span,
+                    format!("material {name} is made of itself: {}", round.join(", then ")),
+                )
+                .expected("expected a material that is made of others"),
+            );
+            return false;
+        }
+        if self.open.len() >= blend::MAX_DEPTH as usize {
+            sink.push(Diagnostic::error(
+                codes::BLEND_CYCLE,
+                span,
+                format!("blends are nested more than {} deep", blend::MAX_DEPTH),
+            ));
+            return false;
+        }
+        true
+    }
+
+    fn add(&mut self, material: Material) -> MaterialId {
+        self.materials.push(material);
+        (self.materials.len() - 1) as MaterialId
     }
 
     /// Reports a name that no material has.
@@ -84,61 +146,19 @@ impl<'a> MaterialTable<'a> {
         uv: UvSets,
         context: &mut Context,
     ) -> Texture {
-        let mut resources = Resources {
-            textures: &mut self.textures,
-            media: &mut self.media,
-            context,
-            uv,
-            user,
-            sets: vec![],
-            uses_textures: false,
-        };
+        let mut resources = Resources { table: self, context, uv, user, uses_textures: false };
         let id = resources.texture(node);
-        self.textures.textures[id as usize].clone()
+        self.textures.texture(id).clone()
     }
 
     /// A surface that scatters nothing.
-    pub(super) fn black(&mut self) -> u32 {
+    pub(super) fn black(&mut self) -> MaterialId {
         if let Some(id) = self.black {
             return id;
         }
-        self.materials.push(Material::black());
-        let id = (self.materials.len() - 1) as u32;
+        let id = self.add(Material::black());
         self.black = Some(id);
         id
-    }
-
-    fn build(
-        &mut self,
-        name: &str,
-        node: &Node,
-        user: Span,
-        uv: UvSets,
-        context: &mut Context,
-    ) -> Option<u32> {
-        let kind = node.alternative()?;
-        let mut resources = Resources {
-            textures: &mut self.textures,
-            media: &mut self.media,
-            context,
-            uv,
-            user,
-            sets: vec![],
-            uses_textures: false,
-        };
-        let material = Material::build(kind, &mut resources)?;
-        let (sets, uses_textures) = (resources.sets, resources.uses_textures);
-        if uses_textures && let Some(&id) = self.built.get(&(name.to_owned(), sets.clone())) {
-            return Some(id);
-        }
-        self.materials.push(material);
-        let id = (self.materials.len() - 1) as u32;
-        if uses_textures {
-            self.built.insert((name.to_owned(), sets), id);
-        } else {
-            self.plain.insert(name.to_owned(), Some(id));
-        }
-        Some(id)
     }
 
     /// Materials that nothing is made of, and media that none of them names, have no effect, whatever
@@ -151,28 +171,17 @@ impl<'a> MaterialTable<'a> {
 
     /// Materials, textures and media in the order of their numbers.
     pub(super) fn into_arenas(self) -> (Vec<Material>, Vec<Texture>, Vec<Medium>) {
-        (self.materials, self.textures.textures, self.media.into_arena())
+        (self.materials, self.textures.into_arena(), self.media.into_arena())
     }
 }
 
-/// Textures loaded so far, each image and curve once.
-#[derive(Default)]
-struct TextureTable {
-    textures: Vec<Texture>,
-    by_content: HashMap<(String, [u64; 4]), TextureId>,
-    by_use: HashMap<(TextureId, u32), TextureId>,
-}
-
 /// What building a material may ask for.
-struct Resources<'t, 'm, 'c, 'd, 'u> {
-    textures: &'t mut TextureTable,
-    media: &'t mut MediumTable<'m>,
+struct Resources<'t, 'a, 'c, 'd, 'u> {
+    table: &'t mut MaterialTable<'a>,
     context: &'c mut Context<'d>,
     uv: UvSets<'u>,
     /// Who uses the material, for errors about missing uv sets.
     user: Span,
-    /// The uv sets found, in order.
-    sets: Vec<u32>,
     uses_textures: bool,
 }
 
@@ -180,26 +189,60 @@ impl MaterialResources for Resources<'_, '_, '_, '_, '_> {
     fn texture(&mut self, node: &Node) -> TextureId {
         self.uses_textures = true;
         let set = self.uv_set(node);
-        self.sets.push(set);
-        let path = node.text("path");
-        let curve = Curve {
-            exponent: node.real("exponent"),
-            a: node.real("a"),
-            b: node.real("b"),
-            c: node.real("c"),
-        };
-        let first = self.textures.load(&path.value, path.span, curve, self.context);
-        self.textures.on_set(first, set)
+        self.table.textures.get(node, set, self.context)
+    }
+
+    fn complex_index(&mut self, node: &Node, field: &str) -> [Spectrum; 2] {
+        let path = node.text(field);
+        let index = self.context.read(&path.value, path.span).and_then(|file| {
+            nk::read(&file.bytes)
+                .map_err(|error| {
+                    self.context.sink.push(
+                        Diagnostic::error(
+                            codes::BAD_FILE,
+                            path.span,
+                            format!("{}:{}: bad file of refractive indices", file.path, error.position),
+                        )
+                        .expected(format!("expected {}, found {}", error.expected, error.found)),
+                    );
+                })
+                .ok()
+        });
+        index.map_or([Spectrum::uniform(1.0), Spectrum::BLACK], |index| tabulated(&index))
+    }
+
+    fn material(&mut self, node: &Node, field: &str) -> MaterialId {
+        let name = node.text(field);
+        let id = self.table.get(&name.value, name.span, self.uv, self.context);
+        self.uses_textures |= !self.table.plain.contains_key(&name.value);
+        id
+    }
+
+    fn built(&self, id: MaterialId) -> &Material {
+        &self.table.materials[id as usize]
     }
 
     fn medium(&mut self, node: &Node, field: &str) -> MediumId {
         let name = node.text(field);
-        self.media.get(&name.value, name.span, self.context.sink)
+        self.table.media.get(&name.value, name.span, self.context.sink)
     }
 
     fn sink(&mut self) -> &mut Sink {
         self.context.sink
     }
+}
+
+/// n and k at every nanometre of the visible range.
+fn tabulated(index: &nk::ComplexIndex) -> [Spectrum; 2] {
+    const FIRST_NM: u32 = 360;
+    const LAST_NM: u32 = 830;
+    let samples: Vec<[f64; 2]> = (FIRST_NM..=LAST_NM).map(|nm| index.at(f64::from(nm))).collect();
+    [0, 1].map(|i| {
+        let values: Vec<f64> = samples.iter().map(|s| s[i]).collect();
+        let (start, end) = (f64::from(FIRST_NM) * 1e-9, f64::from(LAST_NM) * 1e-9);
+        // The reader lets nothing through that a table could not hold.
+        Spectrum::regular_tabulated(start, end, &values).unwrap_or(Spectrum::BLACK)
+    })
 }
 
 impl Resources<'_, '_, '_, '_, '_> {
@@ -222,46 +265,5 @@ impl Resources<'_, '_, '_, '_, '_> {
             .note(format!("the mesh is used at {}", self.context.place(self.user))),
         );
         0
-    }
-}
-
-impl TextureTable {
-    fn load(&mut self, path: &str, span: Span, curve: Curve, context: &mut Context) -> TextureId {
-        let found = context.read(path, span);
-        let file = found.as_ref().map_or_else(|| path.to_owned(), |f| f.path.clone());
-        let key = (file, [curve.exponent, curve.a, curve.b, curve.c].map(f64::to_bits));
-        if let Some(&id) = self.by_content.get(&key) {
-            return id;
-        }
-        let bytes = found.as_ref().map_or_else(super::nothing, |f| f.bytes.clone());
-        let image = match image::decode(&key.0, &bytes) {
-            Ok(image) => image,
-            Err(error) => {
-                if found.is_some() {
-                    context.sink.push(
-                        Diagnostic::error(codes::BAD_FILE, span, format!("{}: bad picture file", key.0))
-                            .expected(format!("expected {}, found {}", error.expected, error.found)),
-                    );
-                }
-                // One grey texel stands in.
-                image::Image { width: 1, height: 1, channels: 1, pixels: image::Pixels::U8(vec![128]) }
-            }
-        };
-        self.textures.push(Texture::new(image, curve, 0));
-        let id = (self.textures.len() - 1) as TextureId;
-        self.by_content.insert(key, id);
-        self.by_use.insert((id, 0), id);
-        id
-    }
-
-    /// The same texture laid on by another uv set.
-    fn on_set(&mut self, first: TextureId, set: u32) -> TextureId {
-        if let Some(&id) = self.by_use.get(&(first, set)) {
-            return id;
-        }
-        self.textures.push(self.textures[first as usize].with_uv_set(set));
-        let id = (self.textures.len() - 1) as TextureId;
-        self.by_use.insert((first, set), id);
-        id
     }
 }

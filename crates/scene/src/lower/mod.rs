@@ -16,6 +16,7 @@ mod names;
 mod picture;
 mod placement;
 mod portal_probe;
+mod textures;
 
 use crate::codes;
 use crate::load::LoadOptions;
@@ -29,7 +30,6 @@ use indigo_math::Vec3d;
 use indigo_scatter::MediumStack;
 use materials::MaterialTable;
 use meshes::MeshTable;
-use std::sync::Arc;
 
 /// What all parts of lowering share.
 pub(crate) struct Context<'a> {
@@ -226,9 +226,4 @@ fn transport(settings: &Settings) -> TransportSettings {
         return TransportSettings { max_depth: 0, bidirectional: false, metropolis: None, hybrid: false };
     }
     TransportSettings { max_depth, bidirectional, metropolis, hybrid }
-}
-
-/// An empty file, for resources that could not be read.
-fn nothing() -> Arc<[u8]> {
-    Arc::from([])
 }

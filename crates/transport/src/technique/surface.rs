@@ -5,7 +5,8 @@ use super::vertex::Vertex;
 use indigo_geom::SurfacePoint;
 use indigo_light::EmitterHit;
 use indigo_math::{Real, Vec3};
-use indigo_scatter::{MediumStack, ShadingPoint};
+use indigo_scatter::{Material, MediumStack, ShadingPoint, bumped_normal};
+use indigo_scene::Scene;
 
 /// What a surface is to a path.
 #[expect(clippy::large_enum_variant, reason = "a path uses no heap, and takes this apart at once")]
@@ -41,13 +42,26 @@ pub(super) fn shade(
         return Surface::Unseen(below);
     }
     let context = scene.material_context(world.lambda, world.interface(&above, &below), choice);
-    match material.leaf(&context, |set| scene.accel.uv(at, set)) {
+    let uv = |set| scene.accel.uv(at, set);
+    let material = material.chosen(&context, &uv);
+    match material.leaf(&context, uv) {
         Some(leaf) => {
-            let shading = ShadingPoint::new(leaf, at.n_g, at.n_s, wo);
+            let shading = ShadingPoint::new(leaf, at.n_g, shading_normal(scene, at, material), wo);
             Surface::Scatters(Vertex::on_surface(at, shading, above, below))
         }
         None => Surface::Unseen(below),
     }
+}
+
+/// The normal of the mesh, bent by the material's bump map.
+#[inline]
+fn shading_normal(scene: &Scene, at: &SurfacePoint, material: &Material) -> Vec3 {
+    let Some(id) = material.bump_map() else { return at.n_s };
+    let map = &scene.textures[id as usize];
+    // Without coordinates that span the surface the map says nothing about its slope.
+    let Some(derivatives) = scene.accel.uv_derivatives(at, map.uv_set) else { return at.n_s };
+    let gradient = map.gradient(scene.accel.uv(at, map.uv_set));
+    bumped_normal(at.n_s, at.n_g, gradient, derivatives)
 }
 
 /// The point as the lights know it.

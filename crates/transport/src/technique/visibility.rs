@@ -117,5 +117,5 @@ fn unseen(world: &World, at: &SurfacePoint, direction: Vec3, media: &MediumStack
     }
     // The share is the mean over all choices.
     let context = scene.material_context(world.lambda, world.interface(&above, &below), 0.0);
-    (material.unseen_share(&context, |set| scene.accel.uv(at, set)), below)
+    (material.unseen_share(&context, &|set| scene.accel.uv(at, set)), below)
 }

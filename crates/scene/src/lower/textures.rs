@@ -1,0 +1,85 @@
+//! Image maps, each file decoded once however often it is used.
+
+use super::Context;
+use crate::codes;
+use indigo_decl::Node;
+use indigo_diag::{Diagnostic, SourceId, Span};
+use indigo_formats::image::{self, Image, Pixels};
+use indigo_texture::{Curve, Texture, TextureId};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// Textures loaded so far.
+#[derive(Default)]
+pub(super) struct TextureTable {
+    textures: Vec<Texture>,
+    /// Where a path named in a file was found.
+    found: HashMap<(SourceId, String), String>,
+    images: HashMap<String, Arc<Image>>,
+    /// Textures by file, curve (exponent, a, b, c) and uv set.
+    by_content: HashMap<(String, [u64; 4], u32), TextureId>,
+}
+
+impl TextureTable {
+    /// The texture of an element on a uv set. What is wrong with its file is reported, and a grey texel stands
+    /// in.
+    pub(super) fn get(&mut self, node: &Node, uv_set: u32, context: &mut Context) -> TextureId {
+        let path = node.text("path");
+        let [exponent, a, b, c] = ["exponent", "a", "b", "c"].map(|field| node.real(field));
+        let file = self.load(&path.value, path.span, context);
+        let key = (file, [exponent, a, b, c].map(f64::to_bits), uv_set);
+        if let Some(&id) = self.by_content.get(&key) {
+            return id;
+        }
+        let image = self.images[&key.0].clone();
+        self.textures.push(Texture::new(image, Curve { exponent, a, b, c }, uv_set));
+        let id = (self.textures.len() - 1) as TextureId;
+        self.by_content.insert(key, id);
+        id
+    }
+
+    /// A texture by its number.
+    pub(super) fn texture(&self, id: TextureId) -> &Texture {
+        &self.textures[id as usize]
+    }
+
+    /// All textures in the order of their numbers.
+    pub(super) fn into_arena(self) -> Vec<Texture> {
+        self.textures
+    }
+
+    /// The key of an image in the table.
+    fn load(&mut self, path: &str, span: Span, context: &mut Context) -> String {
+        let named = (span.source, path.to_owned());
+        if let Some(file) = self.found.get(&named) {
+            return file.clone();
+        }
+        let (file, image) = match context.read(path, span) {
+            Some(found) if self.images.contains_key(&found.path) => (found.path, None),
+            Some(found) => {
+                let image = decode(&found.path, &found.bytes, span, context);
+                (found.path, Some(image))
+            }
+            None => (path.to_owned(), Some(grey())),
+        };
+        if let Some(image) = image {
+            self.images.insert(file.clone(), Arc::new(image));
+        }
+        self.found.insert(named, file.clone());
+        file
+    }
+}
+
+fn decode(file: &str, bytes: &[u8], span: Span, context: &mut Context) -> Image {
+    image::decode(file, bytes).unwrap_or_else(|error| {
+        context.sink.push(
+            Diagnostic::error(codes::BAD_FILE, span, format!("{file}: bad picture file"))
+                .expected(format!("expected {}, found {}", error.expected, error.found)),
+        );
+        grey()
+    })
+}
+
+fn grey() -> Image {
+    Image { width: 1, height: 1, channels: 1, pixels: Pixels::U8(vec![128]) }
+}
