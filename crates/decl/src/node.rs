@@ -241,7 +241,7 @@ impl Node {
                 match (&slot.content, field.kind) {
                     (Content::Node(inner), _) => inner.visit_references(visit),
                     (Content::Value(Value::Text(name)), Kind::Reference(what)) => {
-                        visit(what, name, slot.span)
+                        visit(what, name, slot.span);
                     }
                     _ => {}
                 }
