@@ -153,7 +153,10 @@ pub fn count(n: usize, what: &str) -> String {
 
 fn settings_listing(loaded: &Loaded) -> String {
     let lines = loaded.settings.iter().flat_map(indigo_scene::Settings::listing);
-    lines.map(|line| format!("{:<28} {:<24} ({})\n", line.name, line.value, line.origin.words())).collect()
+    let text: Vec<String> = lines
+        .map(|line| format!("{:<28} {:<24} ({})\n", line.name, line.value, line.origin.words()))
+        .collect();
+    text.concat()
 }
 
 fn dump_metadata(path: &str, console: &mut Console) -> u8 {
@@ -162,8 +165,8 @@ fn dump_metadata(path: &str, console: &mut Console) -> u8 {
         .and_then(|bytes| indigo_imaging::png::read_metadata(&bytes).map_err(|e| e.to_string()));
     match entries {
         Ok(entries) => {
-            let lines: String = entries.iter().map(|(key, value)| format!("{key}: {value}\n")).collect();
-            answer(&lines, console)
+            let lines: Vec<String> = entries.iter().map(|(key, value)| format!("{key}: {value}\n")).collect();
+            answer(&lines.concat(), console)
         }
         Err(error) => {
             console.say(&format!("error: {path}: {error}"));
