@@ -18,7 +18,7 @@ impl Resolver for Memory {
 
 /// A mesh of one quadrilateral.
 fn quad(name: &str, corners: [[i32; 3]; 4]) -> String {
-    let vertices: String = corners.iter().map(|[x, y, z]| format!("<vertex pos=\"{x} {y} {z}\"/>")).collect();
+    let vertices = corners.map(|[x, y, z]| format!("<vertex pos=\"{x} {y} {z}\"/>")).concat();
     format!(
         "<mesh><name>{name}</name><normal_smoothing>false</normal_smoothing><embedded>{vertices}<triangle_set><material_name>white</material_name><tri>0 1 2</tri><tri>0 2 3</tri></triangle_set></embedded></mesh>"
     )
