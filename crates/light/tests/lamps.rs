@@ -39,7 +39,7 @@ fn picture() -> Texture {
     };
     let values: Vec<f32> = (0..20).flat_map(texel).collect();
     let image = Image { width: 5, height: 4, channels: 3, pixels: Pixels::F32(values) };
-    Texture::new(image, Curve { exponent: 1.0, a: 0.0, b: 1.0, c: 0.0 }, 0)
+    Texture::new(std::sync::Arc::new(image), Curve { exponent: 1.0, a: 0.0, b: 1.0, c: 0.0 }, 0)
 }
 
 /// Intensities that vary with both angles; `last` is 90 or 180.

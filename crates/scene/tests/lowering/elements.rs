@@ -1,0 +1,158 @@
+//! Elements that cannot be rendered as they are.
+
+use super::common::*;
+
+#[test]
+fn the_head_is_without_a_complaint() {
+    assert_eq!(found(CAMERA), Vec::<String>::new());
+}
+
+#[test]
+fn names_and_files_that_are_not_there() {
+    expect_one(
+        "<sphere><center>0 0 0</center><radius>1</radius><material_name>whiet</material_name></sphere>",
+        "whiet",
+        "E0301",
+    );
+    expect_one("<model><pos>0 0 0</pos><scale>1</scale><mesh_name>trii</mesh_name></model>", "trii", "E0301");
+    let model = "<model><pos>0 0 0</pos><scale>1</scale><mesh_name>m</mesh_name></model>";
+    let mesh =
+        |path: &str| format!("<mesh><name>m</name><external><path>{path}</path></external></mesh>{model}");
+    expect_one(&mesh("nowhere.obj"), "nowhere.obj", "E0302");
+    expect_one(&mesh("broken.obj"), "broken.obj", "E0303");
+}
+
+#[test]
+fn a_mesh_file_says_which_of_its_triangles_were_dropped_and_which_material_is_missing() {
+    let line = "<mesh><name>m</name><external><path>flat.obj</path></external></mesh><model><pos>0 0 0</pos><scale>1</scale><mesh_name>m</mesh_name></model>";
+    let column = line.find("flat.obj").unwrap() + 1;
+    let codes = found(&format!("{line}\n{CAMERA}"));
+    // No usemtl (a note), a triangle without area (a note), and no material named default.
+    let expected = ["W0303", "W0303", "E0301"].map(|c| format!("{LINE}:{column}:{c}"));
+    assert_eq!(codes, expected);
+}
+
+#[test]
+fn textures_need_their_picture_and_their_coordinates() {
+    let material = |path: &str, set: &str| {
+        format!(
+            "<material><name>t</name><diffuse><albedo_texture><uv_set>{set}</uv_set><path>{path}</path></albedo_texture></diffuse></material>"
+        )
+    };
+    let sphere = "<sphere><center>0 0 0</center><radius>1</radius><material_name>t</material_name></sphere>";
+    expect_one(&format!("{}{sphere}", material("broken.png", "any")), "broken.png", "E0303");
+    expect_one(&format!("{}{sphere}", material("none.png", "any")), "none.png", "E0302");
+    // On a mesh without uv sets the name is an error, too.
+    let mesh = MESH.replace("white", "t").replace("tri<", "mt<");
+    let model = "<model><pos>0 0 0</pos><scale>1</scale><mesh_name>mt</mesh_name></model>";
+    let line = format!("{}{}{model}", material("broken.png", "albedo"), mesh.trim());
+    let codes = found(&format!("{line}\n{CAMERA}"));
+    let column = line.find("albedo</uv_set>").unwrap() + 1;
+    assert!(codes.contains(&format!("{LINE}:{column}:E0307")), "{codes:?}");
+}
+
+#[test]
+fn a_texture_that_nothing_uses_is_not_even_looked_for() {
+    let line = "<material><name>t</name><diffuse><albedo_texture><path>none.png</path></albedo_texture></diffuse></material>";
+    assert_eq!(found(&format!("{line}{CAMERA}")), Vec::<String>::new());
+}
+
+#[test]
+fn numbers_that_make_no_space() {
+    let singular = "<model><pos>0 0 0</pos><scale>1</scale><rotation><matrix>1 2 3 2 4 6 0 0 1</matrix></rotation><mesh_name>tri</mesh_name></model>";
+    expect_one(singular, "1 2 3", "E0304");
+    expect_one(
+        "<plane><normal>0 0 0</normal><dist>0</dist><material_name>white</material_name></plane>",
+        "0 0 0",
+        "E0304",
+    );
+    expect_one(
+        "<plane><normal>0 0 2</normal><dist>0</dist><material_name>white</material_name></plane>",
+        "0 0 2",
+        "W0307",
+    );
+    let camera = CAMERA.replace("<up>0 0 1", "<up>0 3 0");
+    let column = camera.find("0 3 0").unwrap() + 1;
+    assert_eq!(found(&camera), [format!("{LINE}:{column}:E0304")]);
+}
+
+#[test]
+fn cameras() {
+    assert_eq!(found(""), ["1:1:E0305"]);
+    let stretched = CAMERA.replace("1.3333", "1.5");
+    let column = stretched.find("1.5").unwrap() + 1;
+    assert_eq!(found(&stretched), [format!("{LINE}:{column}:W0304")]);
+    let white = CAMERA.replace("</camera>", "<white_balance>D66</white_balance></camera>");
+    let column = white.find("D66").unwrap() + 1;
+    assert_eq!(found(&white), [format!("{LINE}:{column}:E0309")]);
+}
+
+/// Where and with which code a camera with an aperture shape is refused.
+fn expect_aperture(shape: &str, at: &str, code: &str) {
+    let camera = CAMERA.replace("</camera>", &format!("<aperture_shape>{shape}</aperture_shape></camera>"));
+    let column = camera.find(at).expect("the text is in the camera") + 1;
+    assert_eq!(found(&camera), [format!("{LINE}:{column}:{code}")], "{shape}");
+}
+
+#[test]
+fn apertures() {
+    let image = |path: &str| format!("<image><path>{path}</path></image>");
+    expect_aperture(&image("nowhere.png"), "nowhere.png", "E0302");
+    for path in ["broken.png", "broken.obj", "tiny.png", "oblong.png", "odd.png", "black.png"] {
+        expect_aperture(&image(path), path, "E0303");
+    }
+    let blades = |count: &str, offset: &str, radius: &str| {
+        format!(
+            "<generated><num_blades>{count}</num_blades><start_angle>0</start_angle><blade_offset>{offset}</blade_offset><blade_curvature_radius>{radius}</blade_curvature_radius></generated>"
+        )
+    };
+    expect_aperture(&blades("2", "0.3", "1"), "2</num_blades>", "E0203");
+    expect_aperture(&blades("10001", "0.3", "1"), "10001", "E0203");
+    expect_aperture(&blades("5", "0.3", "0.14"), "0.14", "E0203");
+    let good = CAMERA.replace(
+        "</camera>",
+        &format!("<aperture_shape>{}</aperture_shape></camera>", blades("5", "0.3", "1")),
+    );
+    assert_eq!(found(&good), Vec::<String>::new());
+}
+
+#[test]
+fn bloom_is_deprecated() {
+    let camera =
+        CAMERA.replace("</camera>", "<bloom><weight>0.1</weight><radius>0.1</radius></bloom></camera>");
+    let column = camera.find("<bloom>").unwrap() + 1;
+    assert_eq!(found(&camera), [format!("{LINE}:{column}:W0104")]);
+}
+
+/// What stands before the lens matters to diffraction alone.
+#[test]
+fn obstacles() {
+    let with = |path: &str, diffraction: bool| {
+        let camera = CAMERA.replace("</camera>", &format!("<obstacle_map>{path}</obstacle_map></camera>"));
+        let column = camera.find(path).expect("the path") + 1;
+        let on = format!("<aperture_diffraction>{diffraction}</aperture_diffraction>");
+        let head = HEAD.replace("<aperture_diffraction>false</aperture_diffraction>", &on);
+        let l = loaded(&format!("{head}{camera}</scene>"));
+        let place = |d: &indigo_diag::Diagnostic| d.span.map(|s| l.sources.position(s));
+        let places: Vec<_> = l.sink.diagnostics().iter().map(|d| (d.code, place(d))).collect();
+        assert!(places.iter().all(|(_, p)| p.is_some_and(|p| (p.line, p.column) == (LINE, column))));
+        places.into_iter().map(|(code, _)| code).collect::<Vec<_>>()
+    };
+    assert_eq!(with("nowhere.png", false), Vec::<&str>::new());
+    assert_eq!(with("nowhere.png", true), ["E0302"]);
+    assert_eq!(with("broken.png", true), ["E0303"]);
+    assert_eq!(with("tiny.png", true), ["E0303"], "all black");
+}
+
+#[test]
+fn lamps() {
+    let lamp = |spectrum: &str| {
+        format!(
+            "<rectanglelight><pos>0 0 2</pos><width>1</width><height>1</height><spectrum>{spectrum}</spectrum><efficacy_scale><power_drawn>1</power_drawn><overall_luminous_efficacy>1</overall_luminous_efficacy></efficacy_scale></rectanglelight>"
+        )
+    };
+    expect_one(&lamp("<uniform><value>0</value></uniform>"), "<efficacy_scale>", "E0308");
+    expect_one(&lamp("<uniform><value>-2</value></uniform>"), "-2", "E0203");
+    let table = "<regular_tabulated><start_wavelength>4e-7</start_wavelength><end_wavelength>7e-7</end_wavelength><num_values>3</num_values><values>1 2</values></regular_tabulated>";
+    expect_one(&lamp(table), "1 2<", "E0203");
+}

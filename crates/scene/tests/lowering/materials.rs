@@ -1,0 +1,108 @@
+//! Materials: blends and metals.
+
+use super::common::*;
+
+/// A sphere of a material.
+fn sphere_of(material: &str) -> String {
+    format!(
+        "<sphere><center>0 0 0</center><radius>1</radius><material_name>{material}</material_name></sphere>"
+    )
+}
+
+fn material(name: &str, kind: &str) -> String {
+    format!("<material><name>{name}</name>{kind}</material>")
+}
+
+fn blend(a: &str, b: &str) -> String {
+    format!("<blend><blend_factor>0.5</blend_factor><a_name>{a}</a_name><b_name>{b}</b_name></blend>")
+}
+
+#[test]
+fn blends_of_what_cannot_be_blended() {
+    let null = material("none", "<null_material/>");
+    let glass = |name: &str, medium: &str| {
+        material(name, &format!("<specular><internal_medium_name>{medium}</internal_medium_name></specular>"))
+    };
+    let frosted = |name: &str, medium: &str| {
+        let kind = format!(
+            "<glossy_transparent><internal_medium_name>{medium}</internal_medium_name><exponent>9</exponent></glossy_transparent>"
+        );
+        material(name, &kind)
+    };
+    let media = ["ice", "oil"]
+        .map(|m| format!("<medium><name>{m}</name><basic><ior>1.3</ior></basic></medium>"))
+        .concat();
+    let line = |parts: &[String]| parts.concat();
+    // Of itself, at once and by another.
+    let own = line(&[material("m", &blend("white", "m")), sphere_of("m")]);
+    expect_one(&own, "m</b_name>", "E0312");
+    let round =
+        line(&[material("m", &blend("n", "white")), material("n", &blend("white", "m")), sphere_of("m")]);
+    expect_one(&round, "m</b_name>", "E0312");
+    // Two of delta kind, at any depth.
+    let two = line(&[
+        null.clone(),
+        glass("g", "ice"),
+        media.clone(),
+        material("m", &blend("g", "none")),
+        sphere_of("m"),
+    ]);
+    let deep = line(&[
+        null.clone(),
+        material("h", &blend("none", "white")),
+        material("m", &blend("h", "none")),
+        sphere_of("m"),
+    ]);
+    expect_one(
+        &two.replace("<medium><name>oil</name><basic><ior>1.3</ior></basic></medium>", ""),
+        "none</b_name>",
+        "E0207",
+    );
+    expect_one(&deep, "none</b_name></blend></material><sphere>", "E0207");
+    // Different media inside.
+    let media_of = line(&[
+        frosted("f", "ice"),
+        frosted("h", "oil"),
+        media,
+        material("m", &blend("f", "h")),
+        sphere_of("m"),
+    ]);
+    expect_one(&media_of, "h</b_name>", "E0207");
+    // A name that is not there.
+    let unknown = line(&[material("m", &blend("white", "nobody")), sphere_of("m")]);
+    expect_one(&unknown, "nobody", "E0301");
+    // One of delta kind is fine, and so is what many of them share.
+    let fine = line(&[
+        null,
+        material("h", &blend("none", "white")),
+        material("m", &blend("h", "white")),
+        sphere_of("m"),
+    ]);
+    assert_eq!(found(&format!("{fine}\n{CAMERA}{MESH}")), Vec::<String>::new());
+}
+
+#[test]
+fn a_chain_of_blends_may_be_long_but_not_without_end() {
+    let chain = |n: usize| {
+        let link = |i: usize| material(&format!("m{i}"), &blend("white", &format!("m{}", i + 1)));
+        (0..n).map(link).collect::<String>()
+            + &material(&format!("m{n}"), "<null_material/>")
+            + &sphere_of("m0")
+    };
+    assert_eq!(found(&format!("{}\n{CAMERA}", chain(150))), Vec::<String>::new());
+    let codes = found(&format!("{}\n{CAMERA}", chain(5000)));
+    assert!(codes.len() == 1 && codes[0].ends_with("E0312"), "{codes:?}");
+}
+
+#[test]
+fn metals_need_their_file() {
+    let metal = |path: &str, more: &str| {
+        let kind = format!("<phong><nk_data>{path}</nk_data><exponent>9</exponent>{more}</phong>");
+        material("p", &kind) + &sphere_of("p")
+    };
+    expect_one(&metal("nowhere.nk", ""), "nowhere.nk", "E0302");
+    expect_one(&metal("broken.obj", ""), "broken.obj", "E0303");
+    // An empty path is none, so the coat needs its index.
+    expect_one(&metal("", ""), "<phong>", "E0201");
+    assert_eq!(found(&format!("{}\n{CAMERA}", metal("", "<ior>1.5</ior>"))), Vec::<String>::new());
+}
