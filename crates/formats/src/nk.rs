@@ -101,8 +101,10 @@ fn number(text: &mut Text) -> Option<f64> {
         ahead.advance();
     }
     let value: f64 = text.between(start, ahead.offset()).parse().ok()?;
-    *text = ahead;
-    value.is_finite().then_some(value)
+    value.is_finite().then(|| {
+        *text = ahead;
+        value
+    })
 }
 
 fn next(text: &mut Text, expected: &str) -> Result<f64, FormatError> {
