@@ -7,7 +7,7 @@
 //! | offset | what |
 //! |---|---|
 //! | 0 | i32 66613373, i32 1, f64 samples of the whole picture, u32 width, u32 height (internal pixels), u32 super-sampling factor, i32 0 (not compressed), i32 bytes of the image, u32 0 (XYZ) |
-//! | 40 | 5000 bytes that version 1 leaves free: here [`MARK`], u32 [`SECTION_VERSION`], zeros |
+//! | 40 | 5000 bytes that version 1 leaves free: here `MARK`, u32 `SECTION_VERSION`, zeros |
 //! | 5040 | the image: X, Y, Z as f32 per internal pixel, rows from top to bottom, each the radiance in cd/m² times the samples per output pixel |
 //! | then | the film section: the record, then each layer with its sums and counts as f64, in blocks of bytes ordered by significance and compressed by LZ4 |
 //! | last | 32 bytes: the BLAKE3 hash of all before |
@@ -16,7 +16,7 @@
 //! developed, but not gone on with.
 //!
 //! Reading never panics. Its memory is bounded by the file's size: the image alone needs 12 bytes per
-//! internal pixel, and no file has more than [`MAX_LAYERS`] layers.
+//! internal pixel, and no file has more than `MAX_LAYERS` layers.
 
 mod blocks;
 mod bytes;

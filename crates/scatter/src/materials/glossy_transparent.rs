@@ -1,6 +1,6 @@
 //! `glossy_transparent`: a rough surface of a dielectric.
 //!
-//! One reflection or refraction at [`Microfacets`] of the exponent's width, after Walter et al. 2007, equations 20
+//! One reflection or refraction at `Microfacets` of the exponent's width, after Walter et al. 2007, equations 20
 //! and 21, with exact reflectances for the indices of the media on both sides at each wavelength. Normals are
 //! drawn as they are seen, and then reflection or refraction by the reflectance, so that every draw has the
 //! weight of the masking alone. Refraction depends on the wavelength: the drawn direction is the hero's, and each

@@ -4,7 +4,7 @@
 //! "Generalization of Lambert's Reflectance Model", equation 27 (terms C1, C2 and C3; of its variables
 //! α is the larger and β the smaller angle to the normal, φ the azimuth between them). Their equation 29 for
 //! light between facets is a fit to two bounces that makes white surfaces absorb up to 22 % and reflect up
-//! to 105 %. Here what is missing after one bounce is scattered on instead by [`AlbedoRow::complement`],
+//! to 105 %. Here what is missing after one bounce is scattered on instead by `AlbedoRow::complement`,
 //! each further bounce losing the albedo's share, as in Kulla & Conty 2017, so that white stays white. Root
 //! mean square of the relative difference to V-shaped cavities of the paper's slope distribution with all
 //! bounces, traced by Monte Carlo from 3 into 25 directions of up to 80°:

@@ -1,8 +1,8 @@
 //! `phong`: a glossy coat over a diffuse ground, or a metal.
 //!
-//! The gloss is one bounce from [`Microfacets`] of the exponent's width: f = F D G / (4 cos cos), with the exact
+//! The gloss is one bounce from `Microfacets` of the exponent's width: f = F D G / (4 cos cos), with the exact
 //! reflectance F of the coat's index or of the metal's complex index at each wavelength, or Schlick's. What the
-//! facets do not reflect, 1 − E by the directional albedo E of an [`AlbedoRow`], goes on:
+//! facets do not reflect, 1 − E by the directional albedo E of an `AlbedoRow`, goes on:
 //!
 //! - under a **coat** it reaches the ground and comes back as base · (1 − E(μo)) (1 − E(μi)) / (π (1 − Ē)), so that
 //!   the albedo is E + base (1 − E) ≤ 1, and a white ground under any coat loses nothing (Kelemen & Szirmay-Kalos

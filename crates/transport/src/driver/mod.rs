@@ -148,7 +148,7 @@ impl Driver {
     /// The least number of units with so many samples, or more.
     ///
     /// Independent samples come in whole passes over what is rendered, and a pass over a whole picture is one
-    /// sample per pixel exactly; mutations come in units of [`MUTATIONS`].
+    /// sample per pixel exactly; mutations come in units of `MUTATIONS`.
     pub fn units_of(&self, samples: u128) -> u64 {
         let units = match &self.parts {
             Parts::Independent(driver) => {

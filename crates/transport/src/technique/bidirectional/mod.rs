@@ -9,7 +9,7 @@
 //! - (s, 1): a vertex of the light's path is joined to the lens and falls anywhere on the film.
 //!
 //! The lens is no surface that light could meet by chance, so there is no t = 0. What shines straight
-//! into the lens is left to (0, 2). Weights are those of [`mis`](super::mis).
+//! into the lens is left to (0, 2). Weights are those of `mis`.
 
 mod joints;
 mod light_path;
