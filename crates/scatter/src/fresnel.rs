@@ -46,7 +46,8 @@ pub fn conductor(cos: Real, n: Real, k: Real) -> Real {
     let modulus = (difference * difference + 4.0 * n * n * k * k).sqrt();
     let a = (0.5 * (modulus + difference)).max(0.0).sqrt();
     let (sum, cross) = (modulus + cos2, 2.0 * a * cos);
-    let perpendicular = (sum - cross) / (sum + cross);
+    // Both vanish together only along an interface of index 1, which is none.
+    let perpendicular = if sum + cross > 0.0 { (sum - cross) / (sum + cross) } else { 0.0 };
     let (sum, cross) = (cos2 * modulus + sin2 * sin2, cross * sin2);
     // At grazing incidence both parts of the quotient vanish together for an index of 1.
     let parallel = if sum + cross > 0.0 { (sum - cross) / (sum + cross) } else { 1.0 };
