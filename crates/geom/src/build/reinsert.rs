@@ -3,17 +3,20 @@
 //! Meister and Bittner, "Parallel Reinsertion for Bounding Volume Hierarchy Optimization" (Computer
 //! Graphics Forum 37(2), 2018): all searches of a round look at the same tree and run in parallel;
 //! then the moves are made one by one, the most rewarding first, leaving out those that touch what
-//! an earlier one changed.
+//! an earlier one changed. Unlike there, a later round looks only at nodes for which an earlier one
+//! found a better place and at what the moves touched: of the others hardly any finds one.
 
 use super::binary::BinaryNode;
 use crate::pages::with_capacity;
 use crate::wide::Box3;
 use rayon::prelude::*;
 
-/// Rounds.
-const ROUNDS: usize = 4;
-/// Part of the nodes, those of the largest area, that each round tries to move.
+/// Most rounds.
+const ROUNDS: usize = 8;
+/// Part of the nodes, those of the largest area, that the first round tries to move.
 const CANDIDATES: f64 = 0.25;
+/// No further round begins after as many searches as this part of the nodes.
+const SEARCHES: f64 = 0.5;
 
 const ROOT: u32 = 0;
 const NONE: u32 = u32::MAX;
@@ -23,9 +26,15 @@ const LEAF: u32 = 1 << 31;
 /// The better tree, or `None` where it would be deeper than `max_depth`.
 pub(crate) fn improve(binary: &[BinaryNode], max_depth: u32) -> Option<Vec<BinaryNode>> {
     let mut tree = Tree::new(binary);
+    let mut candidates = tree.largest((binary.len() as f64 * CANDIDATES) as usize);
+    let mut searches_left = (binary.len() as f64 * SEARCHES) as usize;
     for _ in 0..ROUNDS {
-        let moves = tree.find_moves();
-        tree.make_moves(&moves);
+        searches_left = searches_left.saturating_sub(candidates.len());
+        let moves = tree.find_moves(&candidates);
+        candidates = tree.make_moves(&moves);
+        if candidates.is_empty() || searches_left == 0 {
+            break;
+        }
     }
     tree.in_order(binary, max_depth)
 }
@@ -102,18 +111,20 @@ impl Tree {
         i ^ 1
     }
 
-    fn find_moves(&self) -> Vec<Move> {
+    /// Of all nodes but the root the `wanted` ones of the largest area.
+    fn largest(&self, wanted: usize) -> Vec<u32> {
         let areas = (2..self.nodes.len() as u32).into_par_iter().map(|i| (self.area(i), i));
-        let mut candidates: Vec<(f32, u32)> = areas.collect();
-        let wanted = (candidates.len() as f64 * CANDIDATES) as usize;
-        if wanted == 0 {
-            return Vec::new();
+        let mut nodes: Vec<(f32, u32)> = areas.collect();
+        if wanted < nodes.len() {
+            nodes.select_nth_unstable_by(wanted, |a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+            nodes.truncate(wanted);
         }
-        candidates.select_nth_unstable_by(wanted, |a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-        candidates.truncate(wanted);
-        // Neighbours in the tree look at the same nodes.
-        candidates.par_sort_unstable_by_key(|c| c.1);
-        let search = |stack: &mut Vec<_>, &(_, node): &(f32, u32)| self.best_move(node, stack);
+        in_tree_order(nodes.into_iter().map(|(_, i)| i).collect())
+    }
+
+    /// The moves that would pay, the most rewarding first.
+    fn find_moves(&self, candidates: &[u32]) -> Vec<Move> {
+        let search = |stack: &mut Vec<_>, &node: &u32| self.best_move(node, stack);
         let mut moves: Vec<Move> = candidates.par_iter().map_init(Vec::new, search).flatten().collect();
         moves.par_sort_unstable_by(|a, b| b.gain.total_cmp(&a.gain).then(a.node.cmp(&b.node)));
         moves
@@ -167,8 +178,11 @@ impl Tree {
         (!stays).then_some(best)
     }
 
-    fn make_moves(&mut self, moves: &[Move]) {
+    /// Makes the moves that do not touch what another one has. Returns what to look at next: all
+    /// nodes that were to move, and what has been touched.
+    fn make_moves(&mut self, moves: &[Move]) -> Vec<u32> {
         let mut touched = vec![false; self.nodes.len()];
+        let mut next: Vec<u32> = moves.iter().map(|m| m.node).collect();
         for m in moves {
             let parent = self.parent(m.node);
             if parent == ROOT || m.beside == ROOT {
@@ -183,8 +197,10 @@ impl Tree {
             for i in involved {
                 touched[i as usize] = true;
             }
+            next.extend(involved.into_iter().filter(|&i| i != ROOT));
             self.make_move(*m);
         }
+        in_tree_order(next)
     }
 
     fn is_below(&self, mut i: u32, ancestor: u32) -> bool {
@@ -259,4 +275,11 @@ impl Tree {
         }
         Some(out)
     }
+}
+
+/// Sorted and each once: neighbours in the tree look at the same nodes.
+fn in_tree_order(mut nodes: Vec<u32>) -> Vec<u32> {
+    nodes.par_sort_unstable();
+    nodes.dedup();
+    nodes
 }
