@@ -154,7 +154,7 @@ pub static BLOOM: Block = Block::new(
 /// The declaration of `aperture_shape`.
 pub static APERTURE_SHAPE: Block = Block::new(
     "aperture_shape",
-    "The shape of the aperture. A picture of it is saved as `aperture_preview.png`.",
+    "The shape of the aperture. A picture of it is saved beside the render, as `aperture_preview.png`.",
     &[],
 )
 .with_alternatives(Alternatives::new("shape", &[&CIRCULAR, &IMAGE, &GENERATED]))

@@ -4,7 +4,7 @@ use indigo_render::output::OutputPaths;
 use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 
-/// Where the shape of the aperture is shown, in the working directory.
+/// Where the shape of the aperture is shown, in the folder of the picture.
 pub const APERTURE_PREVIEW: &str = "aperture_preview.png";
 
 /// The settings file: in the current directory, else beside the program.

@@ -43,7 +43,7 @@ pub fn render(scene: Scene, arguments: &Arguments, named: Option<PathBuf>, conso
             return FAILED;
         }
     };
-    preview_aperture(&scene, console);
+    preview_aperture(&scene, picture.path(), console);
     let options = Options {
         threads: scene.output.threads.unwrap_or_else(logical_cores).min(MOST_THREADS),
         seed: arguments.seed.unwrap_or_else(|| seed_of(saved.as_ref())),
@@ -152,10 +152,10 @@ fn describe(scene: &Scene, console: &mut Console) {
     }
 }
 
-/// A scene with an aperture shape of its own gets a picture of it. That is for looking at: a failure
-/// costs a warning.
-fn preview_aperture(scene: &Scene, console: &mut Console) {
-    let path = PathBuf::from(paths::APERTURE_PREVIEW);
+/// A scene with an aperture shape of its own gets a picture of it, beside that of the scene. It is for looking at: a
+/// failure costs a warning.
+fn preview_aperture(scene: &Scene, picture: &Path, console: &mut Console) {
+    let path = picture.with_file_name(paths::APERTURE_PREVIEW);
     if !scene.output.aperture_preview {
         return;
     }

@@ -30,17 +30,22 @@ impl ErrorMeter {
     /// Estimates the error anew, if enough has been added since the last time; `None` otherwise, and where no
     /// estimate can be made yet.
     pub fn update(&mut self, shared: &Shared) -> Option<f64> {
-        let [before, a, b] = &shared.films[..] else { return None };
-        let taken = [before, a, b].map(MasterFilm::samples_per_pixel);
-        let all = taken.iter().sum::<f64>();
+        let all = shared.films.iter().map(MasterFilm::samples_per_pixel).sum::<f64>();
         if all < self.due_at {
             return None;
         }
         self.due_at = all * GROWTH;
+        self.estimate(shared)
+    }
+
+    /// Estimates the error of the films as they stand.
+    pub fn estimate(&mut self, shared: &Shared) -> Option<f64> {
+        let [before, a, b] = &shared.films[..] else { return None };
+        let taken = [before, a, b].map(MasterFilm::samples_per_pixel);
         let images: [XyzImage; 2] = with_jobs(self.threads, || [a.develop(), b.develop()]);
         let size = shared.scene.film.size;
         let region = shared.scene.film.region.unwrap_or([[0, size.width()], [0, size.height()]]);
-        let counts = Counts { halves: [taken[1], taken[2]], all };
+        let counts = Counts { halves: [taken[1], taken[2]], all: taken.iter().sum() };
         self.last = relative_error([&images[0], &images[1]], region, counts);
         self.last
     }

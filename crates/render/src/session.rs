@@ -194,7 +194,10 @@ impl Session {
         loop {
             self.test_conditions();
             if self.workers.iter().all(JoinHandle::is_finished) {
-                return Event::Halted(self.join(), self.progress());
+                let reason = self.join();
+                // Of the film as it is now: samples have come since the estimate that may have ended the session.
+                self.error.estimate(&self.shared);
+                return Event::Halted(reason, self.progress());
             }
             let now = Instant::now();
             if now >= deadline {

@@ -46,10 +46,11 @@ fn an_aperture_shape_is_shown() {
     let scene = std::fs::read_to_string(bench.path("scene.igs")).expect("the scene");
     let blades = "<aperture_shape><generated><num_blades>5</num_blades><start_angle>0</start_angle><blade_offset>0.3</blade_offset><blade_curvature_radius>1</blade_curvature_radius></generated></aperture_shape></camera>";
     bench.write("scene.igs", &scene.replace("</camera>", blades));
-    let ran = bench.run(&["scene.igs", "-haltspp", "1", "-o", "a.png"]);
+    let ran = bench.run(&["scene.igs", "-haltspp", "1"]);
     assert_eq!(ran.status, Some(0), "{ran:?}");
+    assert!(!bench.path("aperture_preview.png").exists(), "the preview lies beside the picture");
     assert!(ran.stderr.contains("aperture_preview.png"), "{}", ran.stderr);
-    let bytes = std::fs::read(bench.path("aperture_preview.png")).expect("the preview");
+    let bytes = std::fs::read(bench.path("renders/aperture_preview.png")).expect("the preview");
     let image = indigo_formats::image::decode("x.png", &bytes).expect("a picture");
     let indigo_formats::image::Pixels::U8(codes) = image.pixels else { panic!("8 bits are expected") };
     assert_eq!((image.width, image.height, image.channels), (512, 512, 1));

@@ -6,7 +6,9 @@
 mod common;
 
 mod determinism;
+mod error;
 mod halting;
+mod regions;
 mod resuming;
 
 use common::text::{background, flat_camera, grey, scene_file, settings, uniform};

@@ -31,6 +31,7 @@ pub(super) const MUTATIONS: u64 = 2048;
 /// Metropolis sampling.
 #[derive(Debug)]
 pub struct Metropolis {
+    /// The part of the film that chains wander over: what is rendered, and round it what the filter spreads into it.
     region: Region,
     filter: FilmFilter,
     seed: u64,
@@ -77,7 +78,7 @@ impl Metropolis {
         layer: usize,
     ) -> Self {
         Self {
-            region: Region::of(scene),
+            region: Region::of(scene).grown(scene),
             filter: scene.film.filter.clone(),
             seed,
             first,
@@ -156,7 +157,7 @@ impl Run<'_> {
         // Film positions are uniform over the region, not over the film.
         let camera = found.path.radiance * region.share();
         state.add(region.in_pixels(position), found.sensor.xyz(&camera));
-        for splat in self.tracer.splats() {
+        for splat in self.tracer.splats().iter().filter(|splat| region.holds(splat.position)) {
             state.add(region.in_pixels(splat.position), found.sensor.xyz(&splat.radiance));
         }
     }

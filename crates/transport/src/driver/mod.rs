@@ -85,11 +85,12 @@ impl Driver {
             }
         };
         let region = Region::of(scene);
+        let drawn = if matches!(parts, Parts::Metropolis(_)) { region.grown(scene) } else { region };
         Self {
             parts,
             layers,
             pixels: region.size.pixels() as u64,
-            rendered: region.share(),
+            rendered: drawn.share(),
             is_bidirectional: transport.bidirectional,
         }
     }
