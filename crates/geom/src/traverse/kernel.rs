@@ -330,13 +330,15 @@ fn descend<L: Lanes, const ANY: bool>(
         }
         return (child(first), top);
     }
+    // Both before it is known which is nearer: what comes next waits for that, the memory need not.
+    prefetch(view.nodes, view.blocks, child(first));
+    prefetch(view.nodes, view.blocks, child(rest.trailing_zeros() as usize));
     let distances = enter.to_array();
     let entry = |i: usize| u64::from(place(&distances, i).to_key()) << 32 | u64::from(child(i).0);
     let (a, b) = (entry(first), entry(rest.trailing_zeros() as usize));
     rest &= rest - 1;
     let (nearer, farther) = if a < b { (a, b) } else { (b, a) };
     stack.put(top, farther);
-    prefetch(view.nodes, view.blocks, Child(farther as u32));
     if rest == 0 {
         return (Child(nearer as u32), top + 1);
     }
