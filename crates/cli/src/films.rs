@@ -2,7 +2,7 @@
 
 use crate::console::Console;
 use crate::flags::Arguments;
-use crate::render::{logical_cores, program, say_saved};
+use crate::render::{denoiser, logical_cores, program, say_saved};
 use crate::{BAD_INPUT, FAILED, RENDERED, json_report, paths, report, with_load_options};
 use indigo_render::output::{OutputPaths, SaveJob, write_film};
 use indigo_render::pool::with_jobs;
@@ -68,7 +68,20 @@ pub fn tone_map(arguments: &Arguments, console: &mut Console) -> u8 {
     // The film is there already.
     development.output.igi = false;
     let paths = OutputPaths::new(picture);
-    let job = SaveJob { development, paths, version: program(), threads: logical_cores() };
+    if development.output.layers_exr {
+        console.say(
+            "note: the layers are made while a scene is rendered, not of a film: no EXR with layers is saved",
+        );
+    }
+    let denoiser = denoiser(&development.output, console);
+    let job = SaveJob {
+        development,
+        paths,
+        version: program(),
+        threads: logical_cores(),
+        first_hits: None,
+        denoiser,
+    };
     match job.save(&saved) {
         Ok(files) => {
             say_saved(&files, console);

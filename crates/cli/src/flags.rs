@@ -12,6 +12,8 @@ use std::fmt::Write as _;
 pub enum Action {
     /// The option, for messages, sets a setting of `renderer_settings` to its value.
     Setting(&'static str, &'static str),
+    /// The option, for messages, switches a setting on.
+    SwitchOn(&'static str, &'static str),
     /// Sets the number of threads.
     Threads,
     /// Names the random sequence.
@@ -90,6 +92,18 @@ pub static FLAGS: &[Flag] = &[
         Some("IGI"),
         Action::Resume,
         "Go on with the film saved in IGI (see save_igi). It must be of this scene with the same deciding settings. Its samples count towards -haltspp.",
+    ),
+    flag(
+        "layers",
+        None,
+        Action::SwitchOn("-layers", "save_layers_exr"),
+        "Also save an EXR with layers: the picture, albedo, normal, depth, numbers of objects and materials.",
+    ),
+    flag(
+        "denoise",
+        None,
+        Action::SwitchOn("-denoise", "denoise"),
+        "Also save a denoised picture, if the system has the library Open Image Denoise; INDIGO_OIDN may name its file.",
     ),
     flag(
         "merge",
@@ -249,6 +263,9 @@ fn apply(flag: &Flag, value: String, parsed: &mut Arguments) -> Result<(), Strin
     match flag.action {
         // The setting's own declaration checks the value.
         Action::Setting(option, setting) => parsed.settings.push(Override { option, setting, value }),
+        Action::SwitchOn(option, setting) => {
+            parsed.settings.push(Override { option, setting, value: "true".to_owned() });
+        }
         Action::Threads => {
             parsed.settings.push(Override { option: "-t", setting: "num_threads", value });
             let implied = "auto_choose_num_threads";

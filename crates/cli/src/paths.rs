@@ -108,7 +108,14 @@ pub fn reserve_picture(scene: &str, now: SystemTime) -> std::io::Result<Reserved
         let path = picture_of(scene, now, number);
         number += 1;
         let paths = OutputPaths::new(path.clone());
-        if [paths.untonemapped_exr(), paths.tonemapped_exr(), paths.igi()].iter().any(|p| p.exists()) {
+        let siblings = [
+            paths.untonemapped_exr(),
+            paths.tonemapped_exr(),
+            paths.layers_exr(),
+            paths.denoised(),
+            paths.igi(),
+        ];
+        if siblings.iter().any(|p| p.exists()) {
             continue;
         }
         if let Some(directory) = path.parent() {

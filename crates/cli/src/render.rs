@@ -4,6 +4,8 @@ use crate::console::{Console, clock, progress_text, scaled};
 use crate::flags::Arguments;
 use crate::{BAD_INPUT, FAILED, RENDERED, VERSION, count, films, paths};
 use indigo_film::SavedFilm;
+use indigo_render::denoise::Denoiser;
+use indigo_render::first_hits::SceneFirstHits;
 use indigo_render::output::{OutputPaths, SaveError, SaveJob, Saving};
 use indigo_render::saved::read_film;
 use indigo_render::{Event, Halt, HaltReason, Options, Progress, Session, SessionError, preview};
@@ -56,6 +58,9 @@ pub fn render(scene: Scene, arguments: &Arguments, named: Option<PathBuf>, conso
         paths: OutputPaths::new(picture.path()),
         version: program(),
         threads: options.threads,
+        first_hits: (scene.output.layers_exr || scene.output.denoised)
+            .then(|| Arc::new(SceneFirstHits::of(Arc::clone(&scene)))),
+        denoiser: denoiser(&scene.output, console),
     };
     // Now rather than after hours of rendering.
     if let Err(error) = job.check_writable() {
@@ -162,6 +167,20 @@ fn preview_aperture(scene: &Scene, picture: &Path, console: &mut Console) {
     match preview::save_aperture(scene.camera.aperture(), &path) {
         Ok(()) => say_saved(&[path], console),
         Err(error) => console.say(&format!("warning: {error}")),
+    }
+}
+
+/// What denoises, if that is asked for and there is such a thing: a picture is rendered either way.
+pub fn denoiser(output: &OutputSettings, console: &mut Console) -> Option<Arc<Denoiser>> {
+    if !output.denoised {
+        return None;
+    }
+    match Denoiser::find() {
+        Ok(denoiser) => Some(Arc::new(denoiser)),
+        Err(error) => {
+            console.say(&format!("warning: no denoised picture: {error}"));
+            None
+        }
     }
 }
 

@@ -16,6 +16,7 @@
 //! | [`Filter`], [`FilmFilter`] | the splat filter: spreading splats, and drawing camera samples |
 //! | [`Sensor`] | spectrum to XYZ, the only place where that happens |
 //! | [`FilmDelta`], [`MasterFilm`], [`FilmState`] | gathering, sharing and keeping the sums |
+//! | [`FirstHit`] | what a pixel shows, for denoisers and compositing |
 //! | [`XyzImage`] | the film developed: radiance per internal pixel |
 //! | [`SavedFilm`], [`igi`] | a film with where it comes from, and as a file |
 
@@ -25,6 +26,7 @@ mod develop;
 mod error;
 mod film_filter;
 mod filter;
+mod first_hit;
 pub mod igi;
 mod layer;
 mod master;
@@ -39,6 +41,7 @@ pub use develop::XyzImage;
 pub use error::FilmError;
 pub use film_filter::{FilmFilter, FilmSample, Footprint};
 pub use filter::Filter;
+pub use first_hit::FirstHit;
 pub use layer::{Layer, LayerKind, Totals};
 pub use master::MasterFilm;
 pub use record::{FilmRecord, Mismatch, Run, SavedFilm};

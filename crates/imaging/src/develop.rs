@@ -4,7 +4,8 @@ use crate::downsize::{downsize, extent};
 use crate::tonemap::ToneMapper;
 use crate::white_balance::plain_rgb;
 use crate::{LinearImage, Picture, PictureSettings, Region, watermark};
-use indigo_film::{FilmSize, FilmState, Filter, XyzImage};
+use indigo_film::{FilmError, FilmSize, FilmState, Filter, XyzImage};
+use indigo_spectrum::adaptation;
 use rayon::prelude::*;
 
 /// Makes the picture of a film. Runs on the caller's rayon pool.
@@ -73,6 +74,16 @@ pub fn untonemapped(image: &XyzImage, filter: Filter, region: Option<Region>) ->
         *pixel = [r, g, b, pixel[3]];
     });
     LinearImage { width: size.width(), height: size.height(), pixels: framed(size, region, pixels) }
+}
+
+/// The light on the sensor that a linear picture shows, without super-sampling. Errors: it has no pixels, or too many.
+pub fn from_linear(image: &LinearImage) -> Result<XyzImage, FilmError> {
+    let size = FilmSize::new(image.width, image.height, 1)?;
+    let pixels = image.pixels.par_iter().map(|&[r, g, b, alpha]| {
+        let [x, y, z] = adaptation::xyz_of_rgb([r, g, b].map(f64::from)).map(|v| v as f32);
+        [x, y, z, alpha]
+    });
+    Ok(XyzImage { size, pixels: pixels.collect(), missing: vec![false; size.pixels()] })
 }
 
 /// The internal pixels of a region.

@@ -1,8 +1,9 @@
 //! OpenEXR: the linear picture, for measuring and for tone mapping elsewhere.
 
+use crate::layers::Channel;
 use crate::{ImagingError, LinearImage, Metadata};
 use exr::image::write::WritableImage;
-use exr::image::{Encoding, Image, Layer, SpecificChannels};
+use exr::image::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, SpecificChannels};
 use exr::math::Vec2;
 use exr::meta::attribute::{AttributeValue, Chromaticities, Text};
 use exr::meta::header::LayerAttributes;
@@ -31,29 +32,59 @@ fn encode_scaled(
     white_luminance: Option<f32>,
 ) -> Result<Vec<u8>, ImagingError> {
     let (width, height) = (image.width as usize, image.height as usize);
-    if width * height != image.pixels.len() || image.pixels.is_empty() {
+    check_pixels(width * height, image.pixels.len())?;
+    let attributes = attributes(metadata, white_luminance)?;
+    let channels = SpecificChannels::rgb(|at: Vec2<usize>| {
+        let [r, g, b, _] = image.pixels[at.y() * width + at.x()];
+        (r, g, b)
+    });
+    let layer = Layer::new((width, height), attributes, encoding(), channels);
+    let mut file = Image::from_layer(layer);
+    file.attributes.chromaticities = Some(rec709());
+    let mut bytes = Cursor::new(Vec::new());
+    let written = file.write().non_parallel().to_buffered(&mut bytes);
+    written.map(|()| bytes.into_inner()).map_err(|error| ImagingError::Exr(error.to_string()))
+}
+
+/// Encodes channels of any names, in cd/m² where they are light, as [`encode`] does. Errors: as there.
+pub fn encode_layers(
+    [width, height]: [u32; 2],
+    channels: Vec<Channel>,
+    metadata: &Metadata,
+) -> Result<Vec<u8>, ImagingError> {
+    let size = (width as usize, height as usize);
+    for channel in &channels {
+        check_pixels(size.0 * size.1, channel.values.len())?;
+    }
+    let channels = channels.into_iter().map(|c| AnyChannel::new(c.name, FlatSamples::F32(c.values)));
+    let channels = AnyChannels::sort(channels.collect());
+    let layer = Layer::new(size, attributes(metadata, Some(1.0))?, encoding(), channels);
+    let mut file = Image::from_layer(layer);
+    file.attributes.chromaticities = Some(rec709());
+    let mut bytes = Cursor::new(Vec::new());
+    let written = file.write().non_parallel().to_buffered(&mut bytes);
+    written.map(|()| bytes.into_inner()).map_err(|error| ImagingError::Exr(error.to_string()))
+}
+
+fn check_pixels(expected: usize, there: usize) -> Result<(), ImagingError> {
+    if expected != there || there == 0 {
         return Err(ImagingError::Exr("the picture has no pixels, or not as many as its size says".into()));
     }
+    Ok(())
+}
+
+fn attributes(metadata: &Metadata, white_luminance: Option<f32>) -> Result<LayerAttributes, ImagingError> {
     let mut attributes = LayerAttributes { white_luminance, ..LayerAttributes::default() };
     for (key, value) in metadata.sorted()? {
         let name = Text::from_slice_unchecked(format!("{PREFIX}{key}").as_bytes());
         let value = Text::from_slice_unchecked(value.as_bytes());
         attributes.other.insert(name, AttributeValue::Text(value));
     }
-    let channels = SpecificChannels::rgb(|at: Vec2<usize>| {
-        let [r, g, b, _] = image.pixels[at.y() * width + at.x()];
-        (r, g, b)
-    });
-    let encoding = Encoding { compression: exr::compression::Compression::ZIP16, ..Encoding::FAST_LOSSLESS };
-    let layer = Layer::new((width, height), attributes, encoding, channels);
-    let mut file = Image::from_layer(layer);
-    file.attributes.chromaticities = Some(rec709());
-    let mut bytes = Cursor::new(Vec::new());
-    file.write()
-        .non_parallel()
-        .to_buffered(&mut bytes)
-        .map_err(|error| ImagingError::Exr(error.to_string()))?;
-    Ok(bytes.into_inner())
+    Ok(attributes)
+}
+
+fn encoding() -> Encoding {
+    Encoding { compression: exr::compression::Compression::ZIP16, ..Encoding::FAST_LOSSLESS }
 }
 
 /// Primaries and white of ITU-R BT.709.

@@ -23,6 +23,7 @@ mod diffraction;
 mod downsize;
 mod error;
 pub mod exr;
+pub mod layers;
 mod metadata;
 mod picture;
 pub mod png;
@@ -33,7 +34,7 @@ mod watermark;
 mod white_balance;
 
 pub use bloom::Bloom;
-pub use develop::{develop, develop_image, on_sensor, untonemapped};
+pub use develop::{develop, develop_image, from_linear, on_sensor, untonemapped};
 pub use diffraction::Diffraction;
 pub use error::ImagingError;
 pub use metadata::{Metadata, RenderFacts};

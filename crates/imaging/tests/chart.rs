@@ -3,9 +3,10 @@
 //! `chart.txt` is what `chart.py` prints: a chart of colours developed by colour-science and NumPy. `cargo xtask
 //! test` runs that program again, so that the table is known to be its work.
 
-use indigo_film::{FilmSize, FilmState, LayerKind};
+use indigo_film::{FilmSize, FilmState, FirstHit, LayerKind};
 use indigo_imaging::{
     Exposure, LinearImage, Metadata, PictureSettings, Response, ToneMapping, WhiteBalance, develop, exr,
+    layers,
 };
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -111,6 +112,44 @@ fn the_chart_is_what_the_program_prints() {
 /// A file of its own for this test process.
 fn scratch(name: &str) -> PathBuf {
     std::env::temp_dir().join(format!("indigo-imaging-{}-{name}", std::process::id()))
+}
+
+/// Layers come back by their names: the library groups R, G, B, A but no X, Y, Z.
+#[test]
+fn the_reference_implementation_reads_our_layers() {
+    let hits: Vec<FirstHit> = (0..35)
+        .map(|i| FirstHit {
+            albedo: [0.9505 * i as f32, i as f32, 1.089 * i as f32],
+            normal: [0.1, -0.2, i as f32],
+            depth_m: 1e10,
+            object: i,
+            material: 1 << 24,
+        })
+        .collect();
+    let pixels: Vec<[f32; 4]> = (0..35).map(|i| [1.0, 2.0, i as f32, 0.25]).collect();
+    let mut channels = layers::picture_channels(&LinearImage { width: 7, height: 5, pixels });
+    channels.extend(layers::first_hit_channels(&hits));
+    let bytes = exr::encode_layers([7, 5], channels.clone(), &Metadata::default()).expect("an EXR");
+    let path = scratch("layers.exr");
+    std::fs::write(&path, bytes).expect("a file");
+    let printed = python("read_layers.py", &[path.to_str().expect("a path")]);
+    std::fs::remove_file(path).expect("the file is there");
+    let Some(printed) = printed else { return };
+    let read: BTreeMap<&str, Vec<f32>> = printed
+        .lines()
+        .map(|line| {
+            let (name, values) = line.split_once(' ').expect("a name and values");
+            (name, values.split(' ').map(|v| v.parse().expect("a number")).collect())
+        })
+        .collect();
+    assert_eq!(read.len(), 13);
+    for channel in &channels {
+        assert_eq!(read[channel.name], channel.values, "{}", channel.name);
+    }
+    // XYZ of D65 is grey in RGB.
+    assert!(read["albedo.R"].iter().enumerate().all(|(i, v)| (v - i as f32).abs() < 1e-3 * i as f32 + 1e-6));
+    assert_eq!(read["object_id.X"][34], 34.0);
+    assert_eq!(read["material_id.X"][0], 16_777_216.0);
 }
 
 #[test]

@@ -4,9 +4,11 @@
 //! equal clients of it. Below this crate nothing starts a thread, reads a clock or touches a disk.
 
 pub mod atomic;
+pub mod denoise;
 pub mod disk;
 mod error_estimate;
 mod error_meter;
+pub mod first_hits;
 mod gate;
 mod memory;
 mod options;

@@ -1,16 +1,19 @@
 //! Saving pictures: developed from a copy of the film, on a thread of their own.
 
 use crate::atomic::{check_writable, write_atomically};
+use crate::denoise::{DenoiseError, Denoiser};
+use crate::first_hits::SceneFirstHits;
 use crate::pool::with_jobs;
-use indigo_film::{FilmRecord, FilmState, SavedFilm, igi};
+use indigo_film::{FilmRecord, FilmState, Filter, FirstHit, SavedFilm, XyzImage, igi};
 use indigo_imaging::{
-    ImagingError, LinearImage, Metadata, Picture, RenderFacts, develop_image, exr, on_sensor, png,
-    untonemapped,
+    ImagingError, LinearImage, Metadata, Picture, RenderFacts, develop_image, exr, from_linear, layers,
+    on_sensor, png, untonemapped,
 };
 use indigo_scene::Development;
 use std::fs::File;
 use std::io::{BufWriter, Write as _};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::thread::JoinHandle;
 
 /// Where pictures go.
@@ -36,6 +39,16 @@ impl OutputPaths {
         self.sibling("_tonemapped.exr")
     }
 
+    /// The EXR with layers.
+    pub fn layers_exr(&self) -> PathBuf {
+        self.sibling("_layers.exr")
+    }
+
+    /// The denoised PNG.
+    pub fn denoised(&self) -> PathBuf {
+        self.sibling("_denoised.png")
+    }
+
     /// The film.
     pub fn igi(&self) -> PathBuf {
         self.sibling(".igi")
@@ -53,6 +66,9 @@ pub enum SaveError {
     /// The picture cannot be encoded.
     #[error(transparent)]
     Encode(#[from] ImagingError),
+    /// The picture cannot be denoised.
+    #[error(transparent)]
+    Denoise(#[from] DenoiseError),
     /// The file cannot be written.
     #[error("cannot write {}: {source}", .path.display())]
     Write {
@@ -77,6 +93,10 @@ pub struct SaveJob {
     pub version: String,
     /// Threads that render or develop.
     pub threads: usize,
+    /// What the pixels show, for layers and denoising; without it there are no layers.
+    pub first_hits: Option<Arc<SceneFirstHits>>,
+    /// What denoises; without it nothing is.
+    pub denoiser: Option<Arc<Denoiser>>,
 }
 
 impl SaveJob {
@@ -100,16 +120,53 @@ impl SaveJob {
         let picture = develop_image(&image, settings);
         let png = png::encode(&picture, &metadata, output.png)?;
         written.push(write(&self.paths.png, &png)?);
+        let linear = || untonemapped(&image, settings.downsize, settings.region);
         if output.untonemapped_exr {
-            let linear = untonemapped(&image, settings.downsize, settings.region);
-            written.push(write(&self.paths.untonemapped_exr(), &exr::encode(&linear, &metadata)?)?);
+            written.push(write(&self.paths.untonemapped_exr(), &exr::encode(&linear(), &metadata)?)?);
         }
         if output.tonemapped_exr {
             let linear = as_linear(&picture);
             written
                 .push(write(&self.paths.tonemapped_exr(), &exr::encode_display_linear(&linear, &metadata)?)?);
         }
+        if let (true, Some(hits)) = (output.layers_exr, &self.first_hits) {
+            written.push(self.write_layers(&linear(), hits.get(), &metadata)?);
+        }
+        if let (true, Some(denoiser)) = (output.denoised, &self.denoiser) {
+            written.push(self.write_denoised(&saved.film.develop(), denoiser, &metadata)?);
+        }
         Ok(written)
+    }
+
+    fn write_layers(
+        &self,
+        linear: &LinearImage,
+        hits: &[FirstHit],
+        metadata: &Metadata,
+    ) -> Result<PathBuf, SaveError> {
+        let mut channels = layers::picture_channels(linear);
+        channels.extend(layers::first_hit_channels(hits));
+        let bytes = exr::encode_layers([linear.width, linear.height], channels, metadata)?;
+        write(&self.paths.layers_exr(), &bytes)
+    }
+
+    /// The film's light is denoised, and then developed as ever, with diffraction by the aperture.
+    ///
+    /// A denoiser takes what neighbouring pixels share for a part of the picture: so it gets plain means over output pixels,
+    /// which have noise of their own each, neither blurred by diffraction nor by the downsize filter.
+    fn write_denoised(
+        &self,
+        film: &XyzImage,
+        denoiser: &Denoiser,
+        metadata: &Metadata,
+    ) -> Result<PathBuf, SaveError> {
+        let Development { picture: settings, output, .. } = &self.development;
+        let hits = self.first_hits.as_ref().map(|hits| hits.get());
+        let clean = denoiser.denoise(&untonemapped(film, Filter::Box, settings.region), hits)?;
+        let light = from_linear(&clean).map_err(|e| SaveError::Thread(e.to_string()))?;
+        let image = on_sensor(light, settings);
+        let png = png::encode(&develop_image(&image, settings), metadata, output.png)?;
+        write(&self.paths.denoised(), &png)
     }
 
     /// Whether all files could be written.
@@ -123,6 +180,8 @@ impl SaveJob {
             (output.igi, self.paths.igi()),
             (output.untonemapped_exr, self.paths.untonemapped_exr()),
             (output.tonemapped_exr, self.paths.tonemapped_exr()),
+            (output.layers_exr && self.first_hits.is_some(), self.paths.layers_exr()),
+            (output.denoised && self.denoiser.is_some(), self.paths.denoised()),
         ];
         for (_, path) in wanted.into_iter().filter(|(is_wanted, _)| *is_wanted) {
             check_writable(&path).map_err(|source| SaveError::Write { path, source })?;
@@ -231,6 +290,8 @@ mod tests {
         let paths = OutputPaths::new("out/x.y.png");
         assert_eq!(paths.untonemapped_exr(), Path::new("out/x.y_untonemapped.exr"));
         assert_eq!(paths.tonemapped_exr(), Path::new("out/x.y_tonemapped.exr"));
+        assert_eq!(paths.layers_exr(), Path::new("out/x.y_layers.exr"));
+        assert_eq!(paths.denoised(), Path::new("out/x.y_denoised.png"));
         assert_eq!(paths.igi(), Path::new("out/x.y.igi"));
     }
 }

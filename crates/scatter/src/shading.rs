@@ -92,6 +92,12 @@ impl ShadingPoint {
         self.n_g
     }
 
+    /// The shading normal on the side from which the surface is seen.
+    #[inline]
+    pub fn n_s(&self) -> Vec3 {
+        self.frame.n
+    }
+
     /// The direction from which the surface is seen.
     #[inline]
     pub fn wo(&self) -> Vec3 {

@@ -116,6 +116,10 @@ pub struct OutputSettings {
     pub untonemapped_exr: bool,
     /// Whether an EXR of the developed picture is written.
     pub tonemapped_exr: bool,
+    /// An EXR with layers: what the pixels show besides light.
+    pub layers_exr: bool,
+    /// A denoised picture.
+    pub denoised: bool,
     /// Whether a picture of the aperture's shape is written.
     pub aperture_preview: bool,
     /// Whether the film itself is written.
@@ -155,8 +159,13 @@ impl Scene {
     /// The material at a point of a surface.
     #[inline]
     pub fn material_at(&self, at: &SurfacePoint) -> &Material {
-        let slot = self.first_slot[at.object as usize] + at.material_slot;
-        &self.materials[self.slots[slot as usize] as usize]
+        &self.materials[self.material_number_at(at) as usize]
+    }
+
+    /// Its number, in the order in which the scene uses them.
+    #[inline]
+    pub fn material_number_at(&self, at: &SurfacePoint) -> u32 {
+        self.slots[(self.first_slot[at.object as usize] + at.material_slot) as usize]
     }
 
     /// What materials may look at, for the wavelengths of a path, the indices on the two sides of a

@@ -3,11 +3,13 @@
 //!
 //! - [`sampler`]: primary samples, in blocks of four numbers with fixed meaning;
 //! - [`technique`]: path tracing, and bidirectional path tracing with multiple importance sampling;
+//! - [`first_hit`]: what a pixel shows besides light, for denoisers and compositing;
 //! - [`driver`]: independent samples in low-discrepancy order, Metropolis sampling in primary sample space, and
 //!   their hybrid.
 //!
 //! Nothing here starts a thread, reads a clock, allocates for a sample or prints.
 
 pub mod driver;
+pub mod first_hit;
 pub mod sampler;
 pub mod technique;

@@ -1,5 +1,6 @@
 //! The console program, run as users run it.
 
+mod denoising;
 mod files;
 mod films;
 mod messages;

@@ -61,6 +61,11 @@ impl Workbench {
         Ran::from(self.command(arguments).output().expect("the program starts"))
     }
 
+    /// Runs to the end with a variable of the environment set.
+    pub fn run_with(&self, name: &str, value: &Path, arguments: &[&str]) -> Ran {
+        Ran::from(self.command(arguments).env(name, value).output().expect("the program starts"))
+    }
+
     /// Runs to the end, with standard output going to a file.
     #[cfg(target_os = "linux")]
     pub fn run_into(&self, arguments: &[&str], stdout: std::fs::File) -> Ran {

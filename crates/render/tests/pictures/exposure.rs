@@ -39,7 +39,14 @@ fn saved_exr(scene: &Scene, passes: u64, name: &str) -> Image {
     let directory = scratch(name);
     let paths = OutputPaths::new(directory.join("x.png"));
     let exr = paths.untonemapped_exr();
-    let job = SaveJob { development: scene.development(), paths, version: "test".to_owned(), threads: 1 };
+    let job = SaveJob {
+        development: scene.development(),
+        paths,
+        version: "test".to_owned(),
+        threads: 1,
+        first_hits: None,
+        denoiser: None,
+    };
     let written = job.save(&SavedFilm { film, record: None }).expect("saving works");
     assert!(written.contains(&exr), "{written:?}");
     let image = decode("x.exr", &std::fs::read(&exr).expect("the file is there")).expect("it is an EXR");

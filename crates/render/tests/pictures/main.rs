@@ -9,6 +9,7 @@ mod common;
 mod colour;
 mod direct_light;
 mod exposure;
+mod first_hits;
 mod furnace;
 mod lens;
 mod materials;

@@ -213,6 +213,8 @@ pub(super) fn output(settings: &Settings, scene_path: &str) -> OutputSettings {
         scene_path: scene_path.to_owned(),
         untonemapped_exr: settings.bool("save_untonemapped_exr"),
         tonemapped_exr: settings.bool("save_tonemapped_exr"),
+        layers_exr: settings.bool("save_layers_exr"),
+        denoised: settings.bool("denoise"),
         // The camera knows.
         aperture_preview: false,
         igi: settings.bool("save_igi"),

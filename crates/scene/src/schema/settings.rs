@@ -74,6 +74,21 @@ pub static RENDERER_SETTINGS: Block = Block::new(
             "Whether an EXR picture of the tone-mapped colours, linear on the display, is saved beside the PNG.",
         ),
         flag(
+            "save_layers_exr",
+            "false",
+            "Whether an EXR with layers is saved beside the PNG: the picture in cd/m² (`R`, `G`, `B`, `A`), and of what \
+             the camera first meets the reflectance (`albedo.R`, `albedo.G`, `albedo.B`), the normal in the world \
+             (`normal.X`, `normal.Y`, `normal.Z`), the depth in metres (`depth.Z`, 1e10 where there is nothing), and \
+             the numbers of object and material (`object_id.X`, `material_id.X`, 0 where there is nothing). Takes \
+             sixteen camera rays per pixel, once.",
+        ),
+        flag(
+            "denoise",
+            "false",
+            "Whether a denoised picture is saved beside the PNG, which stays as it is. Needs the library Open Image \
+             Denoise, version 2; without it a warning is given.",
+        ),
+        flag(
             "save_igi",
             "false",
             "Whether the film is saved as an Indigo image, from which rendering can go on.",
@@ -244,7 +259,6 @@ const LATER: &[Later] = &[
     Later::new("save_images_on_close", "3.0"),
     Later::new("clamp_contributions", "4.0"),
     Later::new("max_contribution", "4.0"),
-    Later::new("denoise", "4.0"),
     Later::new("optimise_for_denoising", "4.0"),
     Later::new("layer_setting", "1.1"),
     Later::new("colour_curves", "4.0"),

@@ -1,8 +1,9 @@
 //! Techniques: from a primary sample to light.
 
 pub mod bidirectional;
+pub mod first_event;
 mod flight;
-mod media;
+pub(crate) mod media;
 mod mis;
 pub mod path;
 mod surface;

@@ -26,9 +26,9 @@ use indigo_spectrum::{LanePdf, SampledSpectrum, SampledWavelengths};
 const ROULETTE_FROM: u32 = 3;
 
 /// A path on its way from the camera.
-struct Path {
-    beta: SampledSpectrum,
-    ratio: LanePdf,
+pub(super) struct Path {
+    pub beta: SampledSpectrum,
+    pub ratio: LanePdf,
     radiance: SampledSpectrum,
     /// By what refraction has divided the radiance that is carried.
     compression: Real,
@@ -73,7 +73,7 @@ fn power_heuristic(a: Real, b: Real) -> Real {
 impl Path {
     /// From the camera, whose direction has a density for each wavelength of its own: `ratio`, over
     /// the hero's.
-    fn new(ratio: LanePdf) -> Self {
+    pub fn new(ratio: LanePdf) -> Self {
         Self {
             beta: SampledSpectrum::ONE.times(ratio),
             ratio,
@@ -107,7 +107,7 @@ impl Path {
 
     /// Arrives at a vertex.
     #[inline]
-    fn arrive(&mut self, passage: &Passage, vertex: &Vertex) {
+    pub fn arrive(&mut self, passage: &Passage, vertex: &Vertex) {
         self.beta *= passage.weight();
         self.ratio *= passage.free.ratio_to_hero();
         if let Some(collision) = vertex.collision() {

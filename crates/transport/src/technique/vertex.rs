@@ -57,6 +57,14 @@ impl Vertex {
         }
     }
 
+    /// The shading normal on the side from which the path came; none in a medium.
+    pub fn normal(&self) -> Option<Vec3> {
+        match &self.model {
+            Model::Surface(s) => Some(s.n_s()),
+            Model::Medium { .. } => None,
+        }
+    }
+
     /// What turns a density in solid angle as seen from elsewhere, over squared distance, into that of this
     /// vertex: the cosine to the surface's normal, or the coefficient with which the medium scatters.
     #[inline]

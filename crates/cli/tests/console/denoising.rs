@@ -1,0 +1,125 @@
+//! Denoised pictures and layers, beside the picture as it is.
+
+use super::workbench::Workbench;
+use std::path::PathBuf;
+use std::process::Command;
+
+const QUIET: &str = "<logging>false</logging>";
+
+/// A library with the interface of Open Image Denoise that mirrors the picture, so that it can be seen to have been
+/// called. It fails unless it gets all three pictures in full, the HDR mode, and its own handles.
+const STAND_IN: &str = r#"
+use std::ffi::{CStr, c_char, c_int, c_void};
+static mut IMAGES: [(*mut f32, usize); 4] = [(std::ptr::null_mut(), 0); 4];
+static mut HDR: bool = false;
+static mut PROBLEM: *const c_char = std::ptr::null();
+const NAMES: [&CStr; 4] = [c"color", c"albedo", c"normal", c"output"];
+const DEVICE: usize = 16;
+const FILTER: usize = 32;
+unsafe fn check(holds: bool, problem: &'static CStr) { if !holds { unsafe { PROBLEM = problem.as_ptr() } } }
+#[unsafe(no_mangle)] extern "C" fn oidnNewDevice(kind: c_int) -> usize { unsafe { check(kind == 1, c"no CPU") }; DEVICE }
+#[unsafe(no_mangle)] extern "C" fn oidnCommitDevice(device: usize) { unsafe { check(device == DEVICE, c"device") } }
+#[unsafe(no_mangle)] extern "C" fn oidnReleaseDevice(device: usize) { unsafe { check(device == DEVICE, c"device") } }
+#[unsafe(no_mangle)] extern "C" fn oidnNewFilter(device: usize, kind: *const c_char) -> usize {
+    unsafe { check(device == DEVICE && CStr::from_ptr(kind) == c"RT", c"not the filter for rendering") };
+    FILTER
+}
+#[unsafe(no_mangle)] extern "C" fn oidnSetSharedFilterImage(filter: usize, name: *const c_char, data: *mut c_void,
+    format: c_int, width: usize, height: usize, offset: usize, pixel: usize, row: usize) {
+    unsafe {
+        check(filter == FILTER && format == 3 && (offset, pixel, row) == (0, 0, 0), c"layout");
+        match NAMES.iter().position(|n| *n == CStr::from_ptr(name)) {
+            Some(i) => IMAGES[i] = (data.cast(), 3 * width * height),
+            None => check(false, c"unknown image"),
+        }
+    }
+}
+#[unsafe(no_mangle)] extern "C" fn oidnSetFilterBool(_: usize, name: *const c_char, value: bool) {
+    unsafe { HDR = value && CStr::from_ptr(name) == c"hdr" }
+}
+#[unsafe(no_mangle)] extern "C" fn oidnCommitFilter(filter: usize) { unsafe { check(filter == FILTER, c"filter") } }
+#[unsafe(no_mangle)] extern "C" fn oidnReleaseFilter(filter: usize) { unsafe { check(filter == FILTER, c"filter") } }
+#[unsafe(no_mangle)] extern "C" fn oidnExecuteFilter(_: usize) {
+    unsafe {
+        let images = IMAGES;
+        check(HDR, c"the picture is HDR");
+        check(images.iter().all(|i| i.1 == 3 * 40 * 30), c"an image is missing");
+        let [color, albedo, normal, output] = images.map(|(data, n)| std::slice::from_raw_parts_mut(data, n));
+        check(albedo.iter().any(|v| *v > 0.0) && normal.iter().any(|v| *v != 0.0), c"nothing is met");
+        for (i, to) in output.chunks_mut(3).enumerate() { to.copy_from_slice(&color[3 * (i / 40 * 40 + 39 - i % 40)..][..3]) }
+    }
+}
+#[unsafe(no_mangle)] extern "C" fn oidnGetDeviceError(_: usize, message: *mut *const c_char) -> c_int {
+    unsafe { *message = PROBLEM; if PROBLEM.is_null() { 0 } else { 1 } }
+}
+"#;
+
+fn stand_in(bench: &Workbench) -> PathBuf {
+    bench.write("stand_in.rs", STAND_IN);
+    let library = bench.path("stand_in.so");
+    let built = Command::new(std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()))
+        .args(["--edition=2024", "--crate-type=cdylib", "-Adead_code", "-Astatic_mut_refs", "-o"])
+        .args([&library, &bench.path("stand_in.rs")])
+        .output()
+        .expect("the compiler");
+    assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
+    library
+}
+
+fn codes(bench: &Workbench, name: &str) -> Vec<u8> {
+    let image = indigo_formats::image::decode(name, &std::fs::read(bench.path(name)).expect("a picture"));
+    let indigo_formats::image::Pixels::U8(codes) = image.expect("a picture").pixels else { panic!("8 bits") };
+    codes
+}
+
+#[test]
+fn a_denoised_picture_lies_beside_the_noisy_one() {
+    // A picture that no filter blurs (nor diffraction: the scene has none) is the same in both orders.
+    let sharp = "<super_sample_factor>1</super_sample_factor>";
+    let bench = Workbench::new(&format!("{QUIET}{sharp}"));
+    let library = stand_in(&bench);
+    let arguments = ["scene.igs", "-haltspp", "2", "-seed", "3", "-t", "1", "-o", "a.png", "-denoise"];
+    let ran = bench.run_with("INDIGO_OIDN", &library, &arguments);
+    assert_eq!(ran.status, Some(0), "{ran:?}");
+    assert!(ran.stderr.contains("a_denoised.png") && !ran.stderr.contains("warning"), "{}", ran.stderr);
+    let (noisy, denoised) = (codes(&bench, "a.png"), codes(&bench, "a_denoised.png"));
+    let mirrored: Vec<u8> =
+        noisy.chunks(3 * 40).flat_map(|row| row.chunks(3).rev().flatten().copied()).collect();
+    assert!(
+        noisy.iter().zip(&mirrored).any(|(a, b)| a.abs_diff(*b) > 8),
+        "the scene must not be its own mirror image"
+    );
+    for (a, b) in mirrored.iter().zip(&denoised) {
+        // From RGB to XYZ and back is right to rounding.
+        assert!(a.abs_diff(*b) <= 1, "{a} {b}");
+    }
+    assert_eq!(
+        bench.run(&["scene.igs", "-haltspp", "2", "-seed", "3", "-t", "1", "-o", "b.png"]).status,
+        Some(0)
+    );
+    assert_eq!(codes(&bench, "b.png"), noisy, "the picture itself is as without denoising");
+}
+
+#[test]
+fn without_the_library_the_picture_is_there_and_a_warning() {
+    let bench = Workbench::new(QUIET);
+    let nowhere = bench.path("nowhere.so");
+    let ran =
+        bench.run_with("INDIGO_OIDN", &nowhere, &["scene.igs", "-haltspp", "1", "-o", "a.png", "-denoise"]);
+    assert_eq!(ran.status, Some(0), "{ran:?}");
+    for part in ["warning: no denoised picture", "Open Image Denoise", "nowhere.so", "INDIGO_OIDN"] {
+        assert!(ran.stderr.contains(part), "{part}: {}", ran.stderr);
+    }
+    assert!(bench.path("a.png").exists() && !bench.path("a_denoised.png").exists());
+}
+
+#[test]
+fn layers_are_saved_where_they_are_asked_for() {
+    let bench = Workbench::new(&format!("{QUIET}<save_layers_exr>true</save_layers_exr>"));
+    let ran = bench.run(&["scene.igs", "-haltspp", "1", "-o", "a.png"]);
+    assert_eq!(ran.status, Some(0), "{ran:?}");
+    let bytes = std::fs::read(bench.path("a_layers.exr")).expect("the layers");
+    for name in ["albedo.R", "normal.Z", "depth.Z", "object_id.X", "material_id.X"] {
+        assert!(bytes.windows(name.len()).any(|w| w == name.as_bytes()), "{name}");
+    }
+}

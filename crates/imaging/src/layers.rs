@@ -1,0 +1,46 @@
+//! The layers of an EXR, by the names that compositing programs sort them by: `layer.channel`, where colours have the
+//! channels R, G, B and vectors X, Y, Z (OpenEXR, "Technical Introduction", on channel names).
+
+use crate::LinearImage;
+use crate::white_balance::plain_rgb;
+use indigo_film::FirstHit;
+
+/// A channel of a layered EXR: its full name, and a value for each pixel, rows from top to bottom.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Channel {
+    /// Such as `albedo.R`.
+    pub name: &'static str,
+    /// Its values.
+    pub values: Vec<f32>,
+}
+
+/// The picture's own channels, R, G, B and A.
+pub fn picture_channels(image: &LinearImage) -> Vec<Channel> {
+    channels(&image.pixels, ["R", "G", "B", "A"], |pixel| *pixel)
+}
+
+/// `albedo` (linear Rec. 709), `normal`, `depth` (metres), `object_id` and `material_id`. Numbers are exact up to 2^24.
+pub fn first_hit_channels(hits: &[FirstHit]) -> Vec<Channel> {
+    let matrix = plain_rgb();
+    let albedo = |hit: &FirstHit| matrix.apply(&[hit.albedo[0], hit.albedo[1], hit.albedo[2], 0.0]);
+    let mut all = channels(hits, ["albedo.R", "albedo.G", "albedo.B"], albedo);
+    all.extend(channels(hits, ["normal.X", "normal.Y", "normal.Z"], |hit| hit.normal));
+    let names = ["depth.Z", "object_id.X", "material_id.X"];
+    all.extend(channels(hits, names, |hit| [hit.depth_m, hit.object as f32, hit.material as f32]));
+    all
+}
+
+fn channels<T, const N: usize>(
+    pixels: &[T],
+    names: [&'static str; N],
+    values: impl Fn(&T) -> [f32; N],
+) -> Vec<Channel> {
+    let mut channels: Vec<Channel> =
+        names.into_iter().map(|name| Channel { name, values: Vec::with_capacity(pixels.len()) }).collect();
+    for pixel in pixels {
+        for (channel, value) in channels.iter_mut().zip(values(pixel)) {
+            channel.values.push(value);
+        }
+    }
+    channels
+}
