@@ -42,13 +42,14 @@ impl Totals {
 
     /// The draws of a film with layers of these totals.
     ///
-    /// A chain's mutations are draws of their own, and add. All other layers count what one and the same
-    /// draws did (a camera path and the light path drawn with it fill two layers): the largest count is theirs.
+    /// A chain's mutations are draws of their own, and add to the others. Otherwise layers count what one and the same
+    /// draws did (a camera path and the light path drawn with it, or direct and indirect light, fill two layers): the
+    /// largest count is theirs.
     pub(crate) fn draws<'a>(layers: impl Iterator<Item = &'a Self>) -> f64 {
-        let (mut shared, mut chains) = (0.0_f64, 0.0);
+        let (mut shared, mut chains) = (0.0_f64, 0.0_f64);
         for totals in layers {
             if totals.is_chain() {
-                chains += totals.n_samples;
+                chains = chains.max(totals.n_samples);
             } else {
                 shared = shared.max(totals.n_samples);
             }

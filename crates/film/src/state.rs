@@ -71,10 +71,16 @@ impl FilmState {
     /// The film's radiance per internal pixel: the sum of its layers, each by its own
     /// normalisation. Runs on the caller's rayon pool.
     pub fn develop(&self) -> XyzImage {
-        let counted = self.layers.iter().any(|l| l.kind == LayerKind::PerPixel);
+        self.develop_layers(|_| true)
+    }
+
+    /// The same of the layers whose names are wanted.
+    pub fn develop_layers(&self, is_wanted: impl Fn(&str) -> bool) -> XyzImage {
+        let wanted: Vec<&Layer> = self.layers.iter().filter(|l| is_wanted(&l.name)).collect();
+        let counted = wanted.iter().any(|l| l.kind == LayerKind::PerPixel);
         let band_pixels = BAND_ROWS * self.size.internal_width() as usize;
         XyzImage::from_bands(self.size, counted, |band, out, missing| {
-            for layer in &self.layers {
+            for layer in &wanted {
                 let from = (band * band_pixels).min(layer.sums.len());
                 let pixels = from..(from + band_pixels).min(layer.sums.len());
                 let counts = match layer.kind {

@@ -19,6 +19,16 @@ pub fn picture_channels(image: &LinearImage) -> Vec<Channel> {
     channels(&image.pixels, ["R", "G", "B", "A"], |pixel| *pixel)
 }
 
+/// The picture's `direct` light.
+pub fn direct_channels(image: &LinearImage) -> Vec<Channel> {
+    channels(&image.pixels, ["direct.R", "direct.G", "direct.B"], |[r, g, b, _]| [*r, *g, *b])
+}
+
+/// The picture's `indirect` light.
+pub fn indirect_channels(image: &LinearImage) -> Vec<Channel> {
+    channels(&image.pixels, ["indirect.R", "indirect.G", "indirect.B"], |[r, g, b, _]| [*r, *g, *b])
+}
+
 /// `albedo` (linear Rec. 709), `normal`, `depth` (metres), `object_id` and `material_id`. Numbers are exact up to 2^24.
 pub fn first_hit_channels(hits: &[FirstHit]) -> Vec<Channel> {
     let matrix = plain_rgb();

@@ -10,6 +10,7 @@ use indigo_imaging::{
     on_sensor, png, untonemapped,
 };
 use indigo_scene::Development;
+use indigo_transport::driver::is_indirect;
 use std::fs::File;
 use std::io::{BufWriter, Write as _};
 use std::path::{Path, PathBuf};
@@ -130,7 +131,7 @@ impl SaveJob {
                 .push(write(&self.paths.tonemapped_exr(), &exr::encode_display_linear(&linear, &metadata)?)?);
         }
         if let (true, Some(hits)) = (output.layers_exr, &self.first_hits) {
-            written.push(self.write_layers(&linear(), hits.get(), &metadata)?);
+            written.push(self.write_layers(&linear(), &saved.film, hits.get(), &metadata)?);
         }
         if let (true, Some(denoiser)) = (output.denoised, &self.denoiser) {
             written.push(self.write_denoised(&saved.film.develop(), denoiser, &metadata)?);
@@ -141,13 +142,23 @@ impl SaveJob {
     fn write_layers(
         &self,
         linear: &LinearImage,
+        film: &FilmState,
         hits: &[FirstHit],
         metadata: &Metadata,
     ) -> Result<PathBuf, SaveError> {
         let mut channels = layers::picture_channels(linear);
+        channels.extend(layers::direct_channels(&self.part(film, |layer| !is_indirect(layer))));
+        channels.extend(layers::indirect_channels(&self.part(film, is_indirect)));
         channels.extend(layers::first_hit_channels(hits));
         let bytes = exr::encode_layers([linear.width, linear.height], channels, metadata)?;
         write(&self.paths.layers_exr(), &bytes)
+    }
+
+    /// The linear picture of some of a film's layers.
+    fn part(&self, film: &FilmState, is_wanted: impl Fn(&str) -> bool) -> LinearImage {
+        let settings = &self.development.picture;
+        let image = on_sensor(film.develop_layers(is_wanted), settings);
+        untonemapped(&image, settings.downsize, settings.region)
     }
 
     /// The film's light is denoised, and then developed as ever, with diffraction by the aperture.

@@ -6,6 +6,7 @@
 mod common;
 
 mod determinism;
+mod direct;
 mod error;
 mod halting;
 mod regions;

@@ -66,6 +66,8 @@ pub(super) fn decisive(
         ("ray_origin_nudge_distance", settings.real("ray_origin_nudge_distance").to_string()),
         ("vignetting", settings.bool("vignetting").to_string()),
         ("diffraction of rays", by_rays.to_string()),
+        // Direct and indirect light are kept apart then.
+        ("save_layers_exr", settings.bool("save_layers_exr").to_string()),
     ];
     values.map(|(name, value)| (name.to_owned(), value)).to_vec()
 }

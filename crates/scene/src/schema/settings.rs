@@ -76,11 +76,12 @@ pub static RENDERER_SETTINGS: Block = Block::new(
         flag(
             "save_layers_exr",
             "false",
-            "Whether an EXR with layers is saved beside the PNG: the picture in cd/m² (`R`, `G`, `B`, `A`), and of what \
-             the camera first meets the reflectance (`albedo.R`, `albedo.G`, `albedo.B`), the normal in the world \
+            "Whether an EXR with layers is saved beside the PNG: the picture in cd/m² (`R`, `G`, `B`, `A`), its light \
+             that was scattered once at most (`direct.R`, `direct.G`, `direct.B`) and more often (`indirect.R`, \
+             `indirect.G`, `indirect.B`), and of what the camera first meets the reflectance (`albedo.R`, `albedo.G`, `albedo.B`), the normal in the world \
              (`normal.X`, `normal.Y`, `normal.Z`), the depth in metres (`depth.Z`, 1e10 where there is nothing), and \
              the numbers of object and material (`object_id.X`, `material_id.X`, 0 where there is nothing). Takes \
-             sixteen camera rays per pixel, once.",
+             sixteen camera rays per pixel, once, and twice the memory for the film.",
         ),
         flag(
             "denoise",

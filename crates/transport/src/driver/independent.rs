@@ -22,16 +22,17 @@ pub struct Independent {
     tiles: [u32; 2],
     events: Events,
     is_bidirectional: bool,
-    /// The film's layer of camera samples; that of splats follows.
-    layer: usize,
+    /// The film's first layer for direct and for indirect light, which may be the same: that of camera samples, which
+    /// that of splats follows.
+    layers: [usize; 2],
     /// Whether every other round through the internal pixels is independent of the one before.
     pub(super) is_halved: bool,
 }
 
 impl Independent {
-    /// For a scene, the seed of all its randomness, the paths to render, and the film's layer of
-    /// camera samples, which that of splats follows.
-    pub(super) fn new(scene: &Scene, seed: u64, events: Events, layer: usize) -> Self {
+    /// For a scene, the seed of all its randomness, the paths to render, and whether indirect light has layers of its own
+    /// behind those of direct light. Its layers are the film's first.
+    pub(super) fn new(scene: &Scene, seed: u64, events: Events, is_split: bool) -> Self {
         let region = Region::of(scene);
         let tiles = region.ends.map(|[lo, hi]| (hi - lo).div_ceil(TILE));
         Self {
@@ -41,7 +42,7 @@ impl Independent {
             tiles,
             events,
             is_bidirectional: scene.transport.bidirectional,
-            layer,
+            layers: [0, if is_split { 1 + usize::from(scene.transport.bidirectional) } else { 0 }],
             is_halved: false,
         }
     }
@@ -123,15 +124,25 @@ impl Independent {
             on_film.position.y / size.internal_height() as Real,
         );
         let found = tracer.trace(scene, &mut numbers, position, self.events, &mut ());
-        let xyz = found.sensor.xyz(&(found.path.radiance * on_film.weight));
-        delta.add_sample(self.layer, x, y, xyz, (found.path.alpha * on_film.weight).to_f64() as f32);
-        if self.is_bidirectional {
-            // Counted one by one, so that what a unit that fails leaves behind is counted rightly.
-            delta.add_samples(self.layer + 1, 1);
+        let alpha = (found.path.alpha * on_film.weight).to_f64() as f32;
+        let [direct, indirect] = self.layers;
+        let mut add = |layer, light, alpha| {
+            delta.add_sample(layer, x, y, found.sensor.xyz(&(light * on_film.weight)), alpha);
+            if self.is_bidirectional {
+                // Counted one by one, so that what a unit that fails leaves behind is counted rightly.
+                delta.add_samples(layer + 1, 1);
+            }
+        };
+        if direct == indirect {
+            add(direct, found.path.radiance(), alpha);
+        } else {
+            add(direct, found.path.direct, alpha);
+            add(indirect, found.path.indirect, 0.0);
         }
         for splat in tracer.splats() {
             let xyz = found.sensor.xyz(&splat.radiance);
-            delta.splat(self.layer + 1, self.region.in_pixels(splat.position), xyz, &self.filter);
+            let layer = self.layers[usize::from(splat.is_indirect)];
+            delta.splat(layer + 1, self.region.in_pixels(splat.position), xyz, &self.filter);
         }
     }
 

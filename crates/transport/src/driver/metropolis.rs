@@ -39,7 +39,8 @@ pub struct Metropolis {
     first: u64,
     events: Events,
     settings: MetropolisSettings,
-    layer: usize,
+    /// The film's layers for direct and for indirect light, which may be the same.
+    layers: [usize; 2],
     chains: Vec<Mutex<Chain>>,
 }
 
@@ -59,8 +60,8 @@ struct Chain {
 /// What a primary sample puts on the film.
 #[derive(Clone, Debug, Default)]
 struct State {
-    /// Position in internal pixels and colour in cd/m².
-    splats: Vec<(Vec2, [f32; 3])>,
+    /// Position in internal pixels, colour in cd/m², and whether the light is indirect.
+    splats: Vec<(Vec2, [f32; 3], bool)>,
     /// What the chain goes by: the sum of (X + Y + Z) / 3, which no colour can leave at 0.
     target: f64,
     /// How much it has counted so far.
@@ -68,14 +69,14 @@ struct State {
 }
 
 impl Metropolis {
-    /// For a scene, the seed of all its randomness and the first unit, the paths to render and the film's layer
+    /// For a scene, the seed of all its randomness and the first unit, the paths to render and the film's layers
     /// for them.
     pub(super) fn new(
         scene: &Scene,
         [seed, first]: [u64; 2],
         events: Events,
         settings: MetropolisSettings,
-        layer: usize,
+        layers: [usize; 2],
     ) -> Self {
         Self {
             region: Region::of(scene).grown(scene),
@@ -84,7 +85,7 @@ impl Metropolis {
             first,
             events,
             settings,
-            layer,
+            layers,
             chains: (0..CHAINS).map(|_| Mutex::default()).collect(),
         }
     }
@@ -121,7 +122,7 @@ impl Metropolis {
             for step in first..first + MUTATIONS {
                 run.mutate(&mut chain, step);
                 // Counted one by one, so that what a unit that fails leaves behind is counted rightly.
-                run.delta.add_samples(self.layer, 1);
+                run.count(1);
             }
             run.settle(&mut chain.current);
             chain.units += 1;
@@ -144,6 +145,25 @@ impl Run<'_> {
         Mutation { max_change: self.driver.settings.max_change, key: self.key }
     }
 
+    /// The layers, each once.
+    fn each_layer(&mut self, act: impl Fn(&mut FilmDelta, usize)) {
+        let [direct, indirect] = self.driver.layers;
+        act(self.delta, direct);
+        if indirect != direct {
+            act(self.delta, indirect);
+        }
+    }
+
+    /// Counts mutations.
+    fn count(&mut self, n: u64) {
+        self.each_layer(|delta, layer| delta.add_samples(layer, n));
+    }
+
+    /// Estimates of the brightness constant, which is that of all light.
+    fn add_brightness(&mut self, sum: f64, count: u64) {
+        self.each_layer(|delta, layer| delta.add_brightness(layer, sum, count));
+    }
+
     /// Traces a proposal.
     fn trace(&mut self, chain: &mut Chain, step: u64, is_large: bool) {
         let mut numbers = chain.sample.propose(self.mutation(), step, is_large);
@@ -155,10 +175,18 @@ impl Run<'_> {
         state.splats.clear();
         (state.target, state.weight) = (0.0, 0.0);
         // Film positions are uniform over the region, not over the film.
-        let camera = found.path.radiance * region.share();
-        state.add(region.in_pixels(position), found.sensor.xyz(&camera));
+        let film = region.in_pixels(position);
+        let mut add =
+            |light, is_indirect| state.add(film, found.sensor.xyz(&(light * region.share())), is_indirect);
+        if self.driver.layers[0] == self.driver.layers[1] {
+            add(found.path.radiance(), false);
+        } else {
+            add(found.path.direct, false);
+            add(found.path.indirect, true);
+        }
         for splat in self.tracer.splats().iter().filter(|splat| region.holds(splat.position)) {
-            state.add(region.in_pixels(splat.position), found.sensor.xyz(&splat.radiance));
+            let xyz = found.sensor.xyz(&splat.radiance);
+            state.add(region.in_pixels(splat.position), xyz, splat.is_indirect);
         }
     }
 
@@ -176,7 +204,7 @@ impl Run<'_> {
                 chain.is_started = true;
             }
         }
-        self.delta.add_brightness(self.driver.layer, sum, SEEDS);
+        self.add_brightness(sum, SEEDS);
     }
 
     fn mutate(&mut self, chain: &mut Chain, step: u64) {
@@ -186,7 +214,7 @@ impl Run<'_> {
         self.trace(chain, step, is_large);
         let (proposed, current) = (chain.proposal.target, chain.current.target);
         if is_large {
-            self.delta.add_brightness(self.driver.layer, proposed, 1);
+            self.add_brightness(proposed, 1);
         }
         let chance = if chain.is_started {
             (proposed / current).min(1.0)
@@ -214,9 +242,10 @@ impl Run<'_> {
         if !(weight > 0.0 && weight.is_finite()) {
             return;
         }
-        for &(position, xyz) in &state.splats {
+        for &(position, xyz, is_indirect) in &state.splats {
             let xyz = xyz.map(|c| (f64::from(c) * weight) as f32);
-            self.delta.splat(self.driver.layer, position, xyz, &self.driver.filter);
+            let layer = self.driver.layers[usize::from(is_indirect)];
+            self.delta.splat(layer, position, xyz, &self.driver.filter);
         }
     }
 }
@@ -230,11 +259,11 @@ impl Chain {
 }
 
 impl State {
-    fn add(&mut self, position: Vec2, xyz: [f32; 3]) {
+    fn add(&mut self, position: Vec2, xyz: [f32; 3], is_indirect: bool) {
         let sum: f64 = xyz.iter().map(|c| f64::from(*c)).sum();
         if sum.is_finite() && sum > 0.0 {
             self.target += sum / 3.0;
-            self.splats.push((position, xyz));
+            self.splats.push((position, xyz, is_indirect));
         }
     }
 }

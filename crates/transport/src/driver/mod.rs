@@ -5,7 +5,7 @@ mod independent;
 mod metropolis;
 mod region;
 
-use crate::technique::{Events, Tracer};
+use crate::technique::{DIRECT, Events, Tracer};
 use independent::Independent;
 use indigo_film::{FilmDelta, LayerKind};
 use indigo_scene::Scene;
@@ -37,8 +37,15 @@ const LIGHT: &str = "light";
 /// The film's layer of mutations.
 const METROPOLIS: &str = "metropolis";
 
-/// Scattering events of the light that a hybrid driver takes for direct.
-const DIRECT: u32 = 1;
+/// The same of light that is scattered more than once, where a film keeps it apart.
+const CAMERA_INDIRECT: &str = "camera indirect";
+const LIGHT_INDIRECT: &str = "light indirect";
+const METROPOLIS_INDIRECT: &str = "metropolis indirect";
+
+/// Whether a layer of a film holds light that is scattered more than once alone.
+pub fn is_indirect(layer: &str) -> bool {
+    [CAMERA_INDIRECT, LIGHT_INDIRECT, METROPOLIS_INDIRECT].contains(&layer)
+}
 
 impl Driver {
     /// What the scene's settings ask for, with the seed of all randomness.
@@ -53,34 +60,44 @@ impl Driver {
         let transport = &scene.transport;
         let most = transport.max_depth;
         let mut layers = vec![];
-        let camera_layers = |layers: &mut Vec<(LayerKind, &'static str)>| {
-            layers.push((LayerKind::PerPixel, CAMERA));
+        // Of what is direct anyhow nothing is kept apart.
+        let is_split = scene.output.layers_exr && most > DIRECT;
+        let camera_layers = |layers: &mut Vec<(LayerKind, &'static str)>,
+                             [camera, light]: [&'static str; 2]| {
+            layers.push((LayerKind::PerPixel, camera));
             if transport.bidirectional {
-                layers.push((LayerKind::PerScreen, LIGHT));
+                layers.push((LayerKind::PerScreen, light));
             }
         };
-        let independent = |events| Box::new(Independent::new(scene, seed, events, 0));
+        let independent = |events, is_split| Box::new(Independent::new(scene, seed, events, is_split));
         let parts = match transport.metropolis {
             None => {
-                camera_layers(&mut layers);
-                Parts::Independent(independent(Events::up_to(most)))
+                camera_layers(&mut layers, [CAMERA, LIGHT]);
+                if is_split {
+                    camera_layers(&mut layers, [CAMERA_INDIRECT, LIGHT_INDIRECT]);
+                }
+                Parts::Independent(independent(Events::up_to(most), is_split))
             }
             Some(settings) if transport.hybrid && most > DIRECT => {
-                camera_layers(&mut layers);
-                let direct = independent(Events::up_to(DIRECT));
+                camera_layers(&mut layers, [CAMERA, LIGHT]);
+                let direct = independent(Events::up_to(DIRECT), false);
                 let rest = Events { least: DIRECT + 1, most };
                 let indirect =
-                    Box::new(Metropolis::new(scene, [seed, first / 2], rest, settings, layers.len()));
-                layers.push((LayerKind::PerScreen, METROPOLIS));
+                    Box::new(Metropolis::new(scene, [seed, first / 2], rest, settings, [layers.len(); 2]));
+                layers.push((LayerKind::PerScreen, METROPOLIS_INDIRECT));
                 Parts::Hybrid(direct, indirect)
             }
             Some(_) if transport.hybrid => {
-                camera_layers(&mut layers);
-                Parts::Independent(independent(Events::up_to(most)))
+                camera_layers(&mut layers, [CAMERA, LIGHT]);
+                Parts::Independent(independent(Events::up_to(most), false))
             }
             Some(settings) => {
                 layers.push((LayerKind::PerScreen, METROPOLIS));
-                let driver = Metropolis::new(scene, [seed, first], Events::up_to(most), settings, 0);
+                if is_split {
+                    layers.push((LayerKind::PerScreen, METROPOLIS_INDIRECT));
+                }
+                let layers = [0, usize::from(is_split)];
+                let driver = Metropolis::new(scene, [seed, first], Events::up_to(most), settings, layers);
                 Parts::Metropolis(Box::new(driver))
             }
         };

@@ -41,11 +41,24 @@ impl Events {
 /// Light that arrives along a camera ray.
 #[derive(Clone, Copy, Debug)]
 pub struct PathSample {
-    /// Radiance, W m^-3 sr^-1, as it counts on the film.
-    pub radiance: SampledSpectrum,
+    /// Radiance, W m^-3 sr^-1, as it counts on the film, that was scattered at most once.
+    pub direct: SampledSpectrum,
+    /// The same of what was scattered more often.
+    pub indirect: SampledSpectrum,
     /// 1 where the ray meets a visible surface, 0 where it leaves the scene.
     pub alpha: Real,
 }
+
+impl PathSample {
+    /// All of it.
+    #[inline]
+    pub fn radiance(&self) -> SampledSpectrum {
+        self.direct + self.indirect
+    }
+}
+
+/// The most scattering events of direct light.
+pub const DIRECT: u32 = 1;
 
 /// Light that arrives somewhere on the film.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,6 +67,8 @@ pub struct Splat {
     pub position: Vec2,
     /// Radiance, W m^-3 sr^-1, as it counts on the film, over the density of film positions.
     pub radiance: SampledSpectrum,
+    /// Whether it was scattered more than once.
+    pub is_indirect: bool,
 }
 
 /// Somebody who looks at the single contributions of a sample.

@@ -12,7 +12,7 @@ use super::media::{MediaMemory, Passage, World};
 use super::surface::{Surface, emitter_hit, shade};
 use super::vertex::Vertex;
 use super::visibility::way_to_light;
-use super::{Events, PathSample};
+use super::{DIRECT, Events, PathSample};
 use crate::sampler::{Block, PrimarySample};
 use indigo_camera::CameraRay;
 use indigo_geom::{Ray, SurfacePoint};
@@ -154,6 +154,7 @@ fn trace(world: &World, sample: &mut impl PrimarySample, camera: &CameraRay, eve
     let ray = Ray::new(camera.origin, camera.direction);
     let mut flight = Flight::new(ray.o, ray, scene.camera_media);
     let mut alpha = 0.0;
+    let mut direct = None;
     let mut depth = 0;
     // Counts what is not seen, too: each has a choice of its own where it is part of a blend.
     let mut number = 0;
@@ -189,6 +190,10 @@ fn trace(world: &World, sample: &mut impl PrimarySample, camera: &CameraRay, eve
             }
         };
         alpha = 1.0;
+        if depth == DIRECT {
+            // What comes from here on is scattered once more.
+            direct = Some(std::mem::replace(&mut path.radiance, SampledSpectrum::ZERO));
+        }
         if depth == events.most {
             break;
         }
@@ -217,7 +222,9 @@ fn trace(world: &World, sample: &mut impl PrimarySample, camera: &CameraRay, eve
         depth += 1;
         number += 1;
     }
-    PathSample { radiance: path.radiance * camera.importance, alpha }
+    let (direct, indirect) =
+        direct.map_or((path.radiance, SampledSpectrum::ZERO), |direct| (direct, path.radiance));
+    PathSample { direct: direct * camera.importance, indirect: indirect * camera.importance, alpha }
 }
 
 #[inline]

@@ -8,7 +8,7 @@ use crate::technique::mis::{Prefix, Step, Weight};
 use crate::technique::surface::{Surface, shade};
 use crate::technique::vertex::Vertex;
 use crate::technique::visibility::{Point, way};
-use crate::technique::{Record, Splat};
+use crate::technique::{DIRECT, Record, Splat};
 use indigo_geom::Ray;
 use indigo_light::Emission;
 use indigo_math::Real;
@@ -164,7 +164,7 @@ impl LightPath {
         let arrived = light.beta.times(camera.ratio) * passage.transmittance;
         let value = arrived * scattered.f_cos * (film.importance * pdf / distance2);
         record.contribution((events + 1, 1), Some(position), value / weight.mean_ratio, weight.weight);
-        self.splats.push(Splat { position, radiance: value * weight.factor() });
+        self.splats.push(Splat { position, radiance: value * weight.factor(), is_indirect: events > DIRECT });
     }
 }
 

@@ -19,7 +19,7 @@ use super::media::{MediaMemory, World};
 use super::mis::{Prefix, Step};
 use super::surface::{Surface, emitter_hit, shade};
 use super::vertex::Vertex;
-use super::{Events, PathSample, Record, Splat};
+use super::{DIRECT, Events, PathSample, Record, Splat};
 use crate::sampler::{Block, PrimarySample};
 use indigo_camera::CameraRay;
 use indigo_geom::Ray;
@@ -93,7 +93,9 @@ fn trace_camera(
 ) -> PathSample {
     let Sample { world, camera, events } = sample;
     let scene = world.scene;
-    let mut radiance = SampledSpectrum::ZERO;
+    // Direct and indirect.
+    let mut radiance = [SampledSpectrum::ZERO; 2];
+    let kind = |events: u32| usize::from(events > DIRECT);
     let mut beta = SampledSpectrum::splat(camera.importance).times(camera.ratio);
     let pdf = scene.camera.pdf_direction(camera.direction) * light_path.film_density;
     let mut step = Step::from_camera(pdf, camera.ratio);
@@ -116,7 +118,7 @@ fn trace_camera(
                     let drawn = scene.lights.pdf_environment(&from, -wo);
                     let pdf = scene.lights.pdf_emission_environment(-wo, from.p);
                     let densities = [drawn, pdf.first, pdf.second];
-                    radiance += found(&prefix, arrived * light, depth, densities, record);
+                    radiance[kind(depth)] += found(&prefix, arrived * light, depth, densities, record);
                 }
                 break;
             }
@@ -137,7 +139,7 @@ fn trace_camera(
                     let drawn = scene.lights.pdf_object(&emitter, &from) * cos / distance2;
                     let pdf = scene.lights.pdf_emission_object(&emitter, wo);
                     let densities = [drawn, pdf.first, pdf.second];
-                    radiance += found(&prefix, arrived * light, depth, densities, record);
+                    radiance[kind(depth)] += found(&prefix, arrived * light, depth, densities, record);
                 }
                 let u = numbers.block(Block::scatter(number));
                 match shade(world, at, wo, &flight.media, u[3]) {
@@ -163,8 +165,9 @@ fn trace_camera(
         let lights = numbers.block(Block::light(number));
         if vertex.is_connectable() {
             let end = CameraVertex { vertex: &vertex, beta, prefix: &prefix, depth };
-            radiance += draw_light(sample, &end, lights, record);
-            radiance += join(sample, &light_path.vertices, &end, number, numbers, record);
+            radiance[kind(depth + 1)] += draw_light(sample, &end, lights, record);
+            // Scattered at least once on each side.
+            radiance[1] += join(sample, &light_path.vertices, &end, number, numbers, record);
         }
         if depth >= ROULETTE_FROM {
             let chance = (beta.max_lane() / (prefix.ratio.mean() * expected)).min(1.0);
@@ -185,7 +188,8 @@ fn trace_camera(
         depth += 1;
         number += 1;
     }
-    PathSample { radiance, alpha }
+    let [direct, indirect] = radiance;
+    PathSample { direct, indirect, alpha }
 }
 
 #[inline]

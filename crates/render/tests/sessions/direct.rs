@@ -1,0 +1,77 @@
+//! Direct and indirect light, kept apart by every mode.
+
+use super::common::judge::assert_same;
+use super::common::text::{flat_camera, grey, scene_file, settings, sphere, uniform};
+use super::common::{film, scene};
+use indigo_film::XyzImage;
+use indigo_scene::Scene;
+use indigo_testkit::stats::Moments;
+use indigo_transport::driver::is_indirect;
+
+const SIDE: u32 = 24;
+
+/// Inside of a grey ball with a lamp: most light is scattered more than once.
+fn cave(more: &str) -> Scene {
+    scene(&scene_file(&[
+        settings(SIDE, more),
+        flat_camera([0.0, -2.0, 0.0], [0.0, 1.0, 0.0], 0.5),
+        grey("grey", 0.6),
+        sphere([0.0, 0.0, 0.0], 4.0, "grey"),
+        format!(
+            "<rectanglelight><pos>0 0 2</pos><width>1</width><height>1</height><spectrum>{}</spectrum></rectanglelight>",
+            uniform(1e5)
+        ),
+    ]))
+}
+
+fn luminance(image: &XyzImage) -> f64 {
+    image.pixels.iter().map(|p| f64::from(p[1])).sum::<f64>() / image.pixels.len() as f64
+}
+
+/// Mean luminances of the whole, of direct, and of indirect light, and that of coverage.
+fn measured(scene: &Scene) -> [Moments; 4] {
+    let runs: Vec<[f64; 4]> = (0..8)
+        .map(|seed| {
+            let film = film(scene, seed, 64);
+            let whole = film.develop();
+            assert!((film.samples_per_pixel() - 64.0).abs() < 5.0, "{}", film.samples_per_pixel());
+            [
+                luminance(&whole),
+                luminance(&film.develop_layers(|layer| !is_indirect(layer))),
+                luminance(&film.develop_layers(is_indirect)),
+                whole.pixels.iter().map(|p| f64::from(p[3])).sum::<f64>() / f64::from(SIDE * SIDE),
+            ]
+        })
+        .collect();
+    [0, 1, 2, 3].map(|i| Moments::of(runs.iter().map(|run| run[i])))
+}
+
+#[test]
+fn direct_and_indirect_light_are_told_apart_in_every_mode() {
+    let depth = |n: u32| format!("<max_depth>{n}</max_depth>");
+    let [whole, ..] = measured(&cave(&depth(3)));
+    let [once, _, nothing, _] = measured(&cave(&depth(1)));
+    assert_eq!(nothing.mean(), 0.0, "without layers nothing is kept apart");
+    assert!(whole.mean() > 1.5 * once.mean(), "the scene is to have indirect light");
+    for (bidirectional, metropolis, hybrid) in [
+        (false, false, false),
+        (true, false, false),
+        (false, true, false),
+        (true, true, false),
+        (true, true, true),
+    ] {
+        let modes = format!(
+            "<bidirectional>{bidirectional}</bidirectional><metropolis>{metropolis}</metropolis><hybrid>{hybrid}</hybrid>"
+        );
+        let scene = cave(&format!("{}{modes}<save_layers_exr>true</save_layers_exr>", depth(3)));
+        let [all, direct, indirect, coverage] = measured(&scene);
+        assert_same(&format!("all, {modes}"), &all, &whole);
+        assert_same(&format!("direct, {modes}"), &direct, &once);
+        let sum = direct.mean() + indirect.mean();
+        // Single precision of each pixel.
+        assert!((sum / all.mean() - 1.0).abs() < 1e-6, "{modes}: {sum} instead of {}", all.mean());
+        if !metropolis {
+            assert_eq!(coverage.mean(), 1.0, "{modes}");
+        }
+    }
+}
