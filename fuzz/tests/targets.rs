@@ -3,10 +3,11 @@
 use indigo_decl::{ResolveError, Resolved, Resolver};
 use indigo_film::{FilmRecord, FilmSize, FilmState, LayerKind, Run, igi};
 use indigo_formats::image::Pixels;
-use indigo_formats::{MeshData, MeshFormat, image};
+use indigo_formats::{MeshData, MeshFormat, float_map, ies, image, nk};
 use indigo_fuzz::fuzz;
 use indigo_geom::NoStore;
 use indigo_igs::Limits;
+use indigo_light::Profile;
 use indigo_scene::{LoadOptions, Loaded, load};
 
 /// The files of a folder below `seeds`, in order of their names.
@@ -70,6 +71,55 @@ fn picture() {
             assert!(matches!(image.channels, 1 | 3));
             assert_eq!(values, image.width as usize * image.height as usize * usize::from(image.channels));
         }
+    });
+}
+
+/// What is read must be a distribution that a lamp can have.
+#[test]
+fn ies() {
+    fuzz(&seeds("ies"), |bytes| match ies::decode(bytes) {
+        Ok(lamp) => {
+            assert_eq!(lamp.candela.len(), lamp.vertical_deg.len() * lamp.horizontal_deg.len());
+            assert!(lamp.candela.iter().all(|&cd| cd >= 0.0 && cd.is_finite()));
+            let profile = Profile::new(&lamp.vertical_deg, &lamp.horizontal_deg, &lamp.candela);
+            assert!(profile.flux() >= 0.0 && profile.pdf(profile.sample([0.3, 0.7])).is_finite());
+        }
+        Err(error) => assert!(!error.expected.is_empty() && !error.found.is_empty()),
+    });
+}
+
+/// Squares of whatever size the damage leaves, and the one that was asked for.
+#[test]
+fn float() {
+    let seeds: Vec<Vec<u8>> =
+        (1..5u32).map(|n| (0..3 * n * n).flat_map(|i| (i as f32).to_le_bytes()).collect()).collect();
+    fuzz(&seeds, |bytes| {
+        let side = (bytes.len() as f64 / 12.0).sqrt() as u32;
+        for width in [0, 3, side, u32::MAX] {
+            match float_map::decode(bytes, width) {
+                Ok(image) => {
+                    let Pixels::F32(values) = image.pixels else { panic!("other values than floats") };
+                    assert!(values.len() == 3 * (width * width) as usize && values.len() * 4 == bytes.len());
+                }
+                Err(error) => assert!(!error.expected.is_empty() && !error.found.is_empty()),
+            }
+        }
+    });
+}
+
+#[test]
+fn complex_index() {
+    fuzz(&seeds("nk"), |bytes| match nk::read(bytes) {
+        Ok(index) => {
+            let [first, last] = index.range_nm();
+            assert!(first > 0.0 && first <= last && last.is_finite());
+            assert!(
+                [first, 555.0, last]
+                    .iter()
+                    .all(|&nm| index.at(nm).iter().all(|v| v.is_finite() && *v >= 0.0))
+            );
+        }
+        Err(error) => assert!(!error.expected.is_empty() && !error.found.is_empty()),
     });
 }
 
@@ -165,6 +215,12 @@ fn seeds_are_sound() {
         for seed in seeds(folder) {
             assert_eq!(format.read(&seed).err(), None, "{folder}");
         }
+    }
+    for seed in seeds("ies") {
+        assert_eq!(ies::decode(&seed).err(), None);
+    }
+    for seed in seeds("nk") {
+        assert_eq!(nk::read(&seed).err(), None);
     }
     assert!(igi::read(&film()).is_ok());
     for seed in seeds("picture") {

@@ -12,6 +12,8 @@ use crate::text::Text;
 const EV_NM: f64 = 1_239.841_984;
 /// The largest n or k that is believed: those of metals are below 100 far into the infrared.
 const LARGEST: f64 = 1e6;
+/// The wavelengths that are believed, in nm: from gamma rays to metres. Far inside what a number can tell apart.
+const RANGE_NM: std::ops::RangeInclusive<f64> = 1e-3..=1e9;
 
 /// Index of refraction n and extinction coefficient k by wavelength.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,10 +62,10 @@ pub fn read(bytes: &[u8]) -> Result<ComplexIndex, FormatError> {
     let at_range = text.offset();
     let start = next(&mut text, "the start of the range")?;
     let end = next(&mut text, "the end of the range")?;
-    if !(start > 0.0 && end > 0.0 && start != end) {
+    if start == end || ![start, end].iter().all(|&x| x > 0.0 && RANGE_NM.contains(&to_nm(x))) {
         return Err(text.error_saying(
             at_range,
-            "two different positive ends of a range",
+            "two different ends of a range between 0.001 nm and 1 m",
             &format!("{start} and {end}"),
         ));
     }

@@ -184,13 +184,13 @@ impl AreaLight {
 
     /// A point, with density [`pdf_point`](Self::pdf_point); `None` where there is no area.
     #[inline]
-    pub(crate) fn sample_point(&self, u: [Real; 3]) -> Option<EmitterPoint> {
+    pub(crate) fn sample_point(&self, choice: f64, at: [Real; 2]) -> Option<EmitterPoint> {
         if self.area_m2 == 0.0 {
             return None;
         }
-        let (i, _, _) = self.choice.sample(u[0]);
+        let (i, _, _) = self.choice.sample(choice);
         let t = &self.triangles[i];
-        let v = Vec2::new(u[1], u[2]);
+        let v = Vec2::from(at);
         let bary = self.modulation.as_ref().map_or_else(|| uniform_triangle(v), |m| m.sample(i, v));
         let (a, b) = (t.edge1 * bary.0, t.edge2 * bary.1);
         // Two products and two sums, each rounded once, of magnitudes that the terms bound.
@@ -236,6 +236,7 @@ fn horizontal_frame(normal: Vec3, x_axis: Vec3) -> Frame {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use indigo_math::Float;
     use indigo_math::rng::Rng;
 
     fn two_triangles() -> AreaLight {
@@ -261,7 +262,7 @@ mod tests {
         let n = 100_000;
         let (mut upper, mut x) = (0.0, 0.0);
         for _ in 0..n {
-            let p = light.sample_point([rng.next_real(), rng.next_real(), rng.next_real()]).unwrap();
+            let p = light.sample_point(rng.next_real().to_f64(), [rng.next_real(), rng.next_real()]).unwrap();
             let is_upper = p.p.z > 0.5;
             assert_eq!(p.n.z, if is_upper { -1.0 } else { 1.0 });
             assert_eq!(p.triangle, if is_upper { 2 } else { 1 });
@@ -288,6 +289,6 @@ mod tests {
 
     #[test]
     fn no_area_no_point() {
-        assert!(AreaLight::new(Spectrum::uniform(1.0), &[]).sample_point([0.5; 3]).is_none());
+        assert!(AreaLight::new(Spectrum::uniform(1.0), &[]).sample_point(0.5, [0.5; 2]).is_none());
     }
 }

@@ -89,12 +89,12 @@ impl Environment {
 
     /// A direction of light for a receiver.
     #[inline]
-    pub fn sample(&self, to: &Receiver, u: [Real; 3]) -> Option<Vec3> {
-        let (i, _, v) = self.choice.sample(u[0]);
-        let share = self.share(i);
+    pub fn sample(&self, to: &Receiver, choice: f64, at: [Real; 2]) -> Option<Vec3> {
+        let (i, _, rest) = self.choice.sample(choice);
+        let share = self.share(i).to_f64();
         match &self.portals {
-            Some(portals) if v < share => portals.sample_direction(to.p, [v / share, u[1], u[2]]),
-            _ => self.lights[i].sample(to.n, [u[1], u[2]]),
+            Some(portals) if rest < share => portals.sample_direction(to.p, rest / share, at),
+            _ => self.lights[i].sample(to.n, at),
         }
     }
 
@@ -117,15 +117,15 @@ impl Environment {
 
     /// A direction towards the light, and a point beyond the scene where the light enters.
     #[inline]
-    pub fn sample_emission(&self, u: [Real; 3], v: [Real; 2]) -> Option<(Vec3, Vec3)> {
-        let (i, _, rest) = self.choice.sample(u[0]);
-        let towards = self.lights[i].sample(Vec3::ZERO, [u[1], u[2]])?;
+    pub fn sample_emission(&self, choice: f64, at: [Real; 2], v: [Real; 2]) -> Option<(Vec3, Vec3)> {
+        let (i, _, rest) = self.choice.sample(choice);
+        let towards = self.lights[i].sample(Vec3::ZERO, at)?;
         let Some(portals) = &self.portals else {
             let disk = concentric_disk(v.into()) * self.radius;
             let place = Frame::from_normal(towards).to_world(Vec3::new(disk.x, disk.y, self.radius));
             return Some((towards, self.center + place));
         };
-        let (at, n) = portals.sample_point([rest, v[0], v[1]]);
+        let (at, n) = portals.sample_point(rest, v);
         // What comes from the interior does not enter.
         if towards.dot(n) >= 0.0 {
             return None;

@@ -3,6 +3,7 @@
 mod area;
 mod environment;
 pub mod kinds;
+mod line_tree;
 mod modulation;
 mod portals;
 mod profile;

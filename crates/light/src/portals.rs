@@ -5,6 +5,7 @@
 //! been the one that was drawn; the density is the sum over all of them. Portals are no surfaces: whatever
 //! stands in the light's way, before a portal or behind it, still does.
 
+use crate::line_tree::LineTree;
 use indigo_math::distribution::AliasTable;
 use indigo_math::warp::uniform_triangle;
 use indigo_math::{Real, Vec2, Vec3, Vec3d};
@@ -12,7 +13,9 @@ use indigo_math::{Real, Vec2, Vec3, Vec3d};
 /// The triangles of all portals of a scene.
 #[derive(Clone, Debug)]
 pub struct Portals {
+    /// In the order of the tree.
     triangles: Vec<Triangle>,
+    tree: LineTree,
     by_area: AliasTable,
     area_m2: f64,
 }
@@ -41,9 +44,10 @@ impl Portals {
     /// From corners in render space, counter-clockwise seen from the interior; `None` without any area.
     pub fn new(corners: &[[Vec3d; 3]]) -> Option<Self> {
         let area = |c: &[Vec3d; 3]| 0.5 * (c[1] - c[0]).cross(c[2] - c[0]).length();
-        let solid: Vec<&[Vec3d; 3]> =
-            corners.iter().filter(|c| area(c) > 0.0 && area(c).is_finite()).collect();
-        let areas: Vec<f64> = solid.iter().map(|c| area(c)).collect();
+        let mut solid = corners.to_vec();
+        solid.retain(|c| area(c) > 0.0 && area(c).is_finite());
+        let tree = LineTree::new(&mut solid);
+        let areas: Vec<f64> = solid.iter().map(area).collect();
         let triangles = solid.iter().map(|c| {
             let (e1, e2) = (c[1] - c[0], c[2] - c[0]);
             Triangle {
@@ -56,6 +60,7 @@ impl Portals {
         let triangles: Vec<Triangle> = triangles.collect();
         (!triangles.is_empty()).then(|| Self {
             triangles,
+            tree,
             by_area: AliasTable::new(&areas),
             area_m2: areas.iter().sum(),
         })
@@ -68,17 +73,17 @@ impl Portals {
 
     /// A point, even over the area, and the unit normal there.
     #[inline]
-    pub(crate) fn sample_point(&self, u: [Real; 3]) -> (Vec3, Vec3) {
-        let (i, _, _) = self.by_area.sample(u[0]);
+    pub(crate) fn sample_point(&self, choice: f64, at: [Real; 2]) -> (Vec3, Vec3) {
+        let (i, _, _) = self.by_area.sample(choice);
         let t = &self.triangles[i];
-        let (b1, b2) = uniform_triangle(Vec2::new(u[1], u[2]));
+        let (b1, b2) = uniform_triangle(Vec2::from(at));
         (t.corner + t.edge1 * b1 + t.edge2 * b2, t.normal)
     }
 
     /// A direction out of the interior from a point, with density [`pdf_direction`](Self::pdf_direction).
     #[inline]
-    pub(crate) fn sample_direction(&self, p: Vec3, u: [Real; 3]) -> Option<Vec3> {
-        let (at, n) = self.sample_point(u);
+    pub(crate) fn sample_direction(&self, p: Vec3, choice: f64, at: [Real; 2]) -> Option<Vec3> {
+        let (at, n) = self.sample_point(choice, at);
         let wi = (at - p).try_normalized()?;
         (wi.dot(n) < 0.0).then_some(wi)
     }
@@ -86,11 +91,8 @@ impl Portals {
     /// Density (1/sr) with which [`sample_direction`](Self::sample_direction) draws a direction from `p`.
     #[inline]
     pub(crate) fn pdf_direction(&self, p: Vec3, wi: Vec3) -> Real {
-        let sum: Real = self
-            .crossings(p, wi)
-            .filter(|(t, _)| *t > 0.0)
-            .map(|(t, cos)| if cos > 0.0 { t * t / cos } else { 0.0 })
-            .sum();
+        let mut sum = 0.0;
+        self.visit_crossings(p, wi, |t, cos| sum += if t > 0.0 && cos > 0.0 { t * t / cos } else { 0.0 });
         sum * self.inverse_area()
     }
 
@@ -98,19 +100,20 @@ impl Portals {
     /// through a point towards the light; all along the line, since what lies before a portal gets its light, too.
     #[inline]
     pub(crate) fn pdf_line(&self, through: Vec3, towards: Vec3) -> Real {
-        let sum: Real =
-            self.crossings(through, towards).map(|(_, cos)| if cos > 0.0 { 1.0 / cos } else { 0.0 }).sum();
+        let mut sum = 0.0;
+        self.visit_crossings(through, towards, |_, cos| sum += if cos > 0.0 { 1.0 / cos } else { 0.0 });
         sum * self.inverse_area()
     }
 
-    /// How a ray passes.
-    pub fn passage(&self, p: Vec3, d: Vec3) -> Passage {
-        let ahead = self.crossings(p, d).filter(|(t, _)| *t > 0.0);
-        ahead.fold(Passage::Beside, |passage, (_, cos)| match passage {
-            _ if cos > 0.0 => Passage::Out,
-            Passage::Out => Passage::Out,
-            _ => Passage::Back,
-        })
+    /// How a ray of some length passes.
+    pub fn passage(&self, p: Vec3, d: Vec3, length: Real) -> Passage {
+        let mut passage = Passage::Beside;
+        self.visit_crossings(p, d, |t, cos| {
+            if t > 0.0 && t < length && passage != Passage::Out {
+                passage = if cos > 0.0 { Passage::Out } else { Passage::Back };
+            }
+        });
+        passage
     }
 
     #[inline]
@@ -118,11 +121,17 @@ impl Portals {
         (1.0 / self.area_m2) as Real
     }
 
-    /// Where a line passes portals: distance along it, and the cosine to the normal's other side (above 0
-    /// where the line leads out of the interior).
+    /// Calls for each portal that a line passes: distance along it, and the cosine to the normal's other side
+    /// (above 0 where the line leads out of the interior).
     #[inline]
-    fn crossings(&self, p: Vec3, d: Vec3) -> impl Iterator<Item = (Real, Real)> + '_ {
-        self.triangles.iter().filter_map(move |t| Some((t.meet(p, d)?, -d.dot(t.normal))))
+    fn visit_crossings(&self, p: Vec3, d: Vec3, mut visit: impl FnMut(Real, Real)) {
+        self.tree.visit(p, d, |range| {
+            for triangle in &self.triangles[range] {
+                if let Some(t) = triangle.meet(p, d) {
+                    visit(t, -d.dot(triangle.normal));
+                }
+            }
+        });
     }
 }
 
@@ -145,7 +154,10 @@ impl Triangle {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use indigo_math::Float;
     use indigo_math::rng::Rng;
+
+    const FAR: Real = Real::INFINITY;
 
     /// Two windows of different size in the walls x = 2 and y = 3 of a room round the origin.
     fn windows() -> Portals {
@@ -162,10 +174,12 @@ mod tests {
     fn passages_are_told_apart() {
         let w = windows();
         let o = Vec3::ZERO;
-        assert_eq!(w.passage(o, Vec3::new(1.0, 0.1, 0.1)), Passage::Out);
-        assert_eq!(w.passage(o, Vec3::new(0.0, 1.0, 0.05)), Passage::Out);
-        assert_eq!(w.passage(o, Vec3::new(-1.0, 0.0, 0.0)), Passage::Beside);
-        assert_eq!(w.passage(Vec3::new(5.0, 0.0, 0.0), Vec3::new(-1.0, 0.0, 0.0)), Passage::Back);
+        assert_eq!(w.passage(o, Vec3::new(1.0, 0.1, 0.1), FAR), Passage::Out);
+        assert_eq!(w.passage(o, Vec3::new(0.0, 1.0, 0.05), FAR), Passage::Out);
+        assert_eq!(w.passage(o, Vec3::new(-1.0, 0.0, 0.0), FAR), Passage::Beside);
+        // Something stands before the window.
+        assert_eq!(w.passage(o, Vec3::new(1.0, 0.1, 0.1), 1.9), Passage::Beside);
+        assert_eq!(w.passage(Vec3::new(5.0, 0.0, 0.0), Vec3::new(-1.0, 0.0, 0.0), FAR), Passage::Back);
         assert!(Portals::new(&[[Vec3d::ZERO; 3]]).is_none());
     }
 
@@ -179,8 +193,8 @@ mod tests {
         let (mut sum, mut squares) = (0.0, 0.0);
         let n = 100_000;
         for _ in 0..n {
-            let u = [rng.next_real(), rng.next_real(), rng.next_real()];
-            let d = w.sample_direction(Vec3::ZERO, u).unwrap();
+            let at = [rng.next_real(), rng.next_real()];
+            let d = w.sample_direction(Vec3::ZERO, rng.next_real().to_f64(), at).unwrap();
             let v = 1.0 / w.pdf_direction(Vec3::ZERO, d) as f64;
             sum += v;
             squares += v * v;

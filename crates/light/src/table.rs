@@ -5,7 +5,7 @@ use crate::environment::Environment;
 use crate::kinds::DistantLight;
 use crate::portals::Portals;
 use crate::query::{Emission, EmissionPdf, EmitterHit, LightSample, Receiver};
-use indigo_math::distribution::AliasTable;
+use indigo_math::distribution::{AliasTable, refined};
 use indigo_math::{Real, Vec3, Vec3d};
 use indigo_spectrum::{SampledSpectrum, SampledWavelengths};
 
@@ -85,17 +85,19 @@ impl LightTable {
         self.by_power.probability(self.lamps.len())
     }
 
-    /// Draws light towards a receiver.
+    /// Draws light towards a receiver: `u` chooses a light, a point on it or a direction towards it (two
+    /// numbers), and the choice's further digits ([`refined`]).
     #[inline]
-    pub fn sample(&self, to: &Receiver, u: [Real; 3], lambda: &SampledWavelengths) -> Option<LightSample> {
+    pub fn sample(&self, to: &Receiver, u: [Real; 4], lambda: &SampledWavelengths) -> Option<LightSample> {
         if self.by_power.is_empty() {
             return None;
         }
-        let (i, chance, u0) = self.by_power.sample(u[0]);
+        let (i, chance, rest) = self.by_power.sample(refined(u[0], u[3]));
+        let at = [u[1], u[2]];
         let Some(lamp) = self.lamps.get(i) else {
-            return self.sample_environment(to, [u0, u[1], u[2]], lambda);
+            return self.sample_environment(to, rest, at, lambda);
         };
-        let mut point = lamp.sample_point([u0, u[1], u[2]])?;
+        let mut point = lamp.sample_point(rest, at)?;
         let front = point.n;
         let way = point.p - to.p;
         let distance2 = way.length2();
@@ -125,11 +127,12 @@ impl LightTable {
     fn sample_environment(
         &self,
         to: &Receiver,
-        u: [Real; 3],
+        choice: f64,
+        at: [Real; 2],
         lambda: &SampledWavelengths,
     ) -> Option<LightSample> {
         let environment = self.environment.as_ref()?;
-        let wi = environment.sample(to, u)?;
+        let wi = environment.sample(to, choice, at)?;
         let pdf = self.pdf_environment(to, wi);
         (pdf > 0.0).then(|| LightSample {
             wi,
@@ -200,23 +203,24 @@ impl LightTable {
         EmissionPdf { first: self.environment_chance() * pdf.first, ..pdf }
     }
 
-    /// Draws light that leaves a lamp or enters the scene: `u` chooses the light and a point on it or a
-    /// direction towards it, `v` a direction or a place. `None` where there is none to be had.
+    /// Draws light that leaves a lamp or enters the scene: `u` as for [`sample`](Self::sample), `v`
+    /// chooses a direction or a place. `None` where there is none to be had.
     #[inline]
     pub fn sample_emission(
         &self,
-        u: [Real; 3],
+        u: [Real; 4],
         v: [Real; 2],
         lambda: &SampledWavelengths,
     ) -> Option<Emission> {
         if self.by_power.is_empty() {
             return None;
         }
-        let (i, chance, u0) = self.by_power.sample(u[0]);
+        let (i, chance, rest) = self.by_power.sample(refined(u[0], u[3]));
+        let at = [u[1], u[2]];
         let Some(lamp) = self.lamps.get(i) else {
-            return self.sample_emission_environment([u0, u[1], u[2]], v, lambda);
+            return self.sample_emission_environment(rest, at, v, lambda);
         };
-        let mut point = lamp.sample_point([u0, u[1], u[2]])?;
+        let mut point = lamp.sample_point(rest, at)?;
         let direction = lamp.sample_direction(&point, v);
         let pdf = EmissionPdf {
             first: chance * lamp.pdf_point(point.triangle, point.bary),
@@ -238,12 +242,13 @@ impl LightTable {
     #[inline]
     fn sample_emission_environment(
         &self,
-        u: [Real; 3],
+        choice: f64,
+        at: [Real; 2],
         v: [Real; 2],
         lambda: &SampledWavelengths,
     ) -> Option<Emission> {
         let environment = self.environment.as_ref()?;
-        let (towards, origin) = environment.sample_emission(u, v)?;
+        let (towards, origin) = environment.sample_emission(choice, at, v)?;
         let pdf = self.pdf_emission_environment(towards, origin);
         // A scene without extent gets no light: the density over its area has no value.
         (pdf.first > 0.0 && pdf.second > 0.0 && pdf.second.is_finite()).then(|| Emission {

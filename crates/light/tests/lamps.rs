@@ -78,8 +78,8 @@ fn luminance(radiance: indigo_spectrum::SampledSpectrum, lambda: &SampledWavelen
     radiance.0.iter().zip(y).map(|(l, y)| (l * y) as f64).sum()
 }
 
-fn random(rng: &mut Rng) -> [Real; 6] {
-    [0; 6].map(|_| rng.uniform_f32() as Real)
+fn random(rng: &mut Rng) -> [Real; 7] {
+    [0; 7].map(|_| rng.uniform_f32() as Real)
 }
 
 /// Cells: two by two of the square, and up or down and four quarters of azimuth.
@@ -93,7 +93,7 @@ fn cell(p: Vec3, d: Vec3) -> usize {
 
 /// An even point of the square and an even direction, with what the lamp sends there: flux over density.
 fn even(table: &LightTable, front: Real, rng: &mut Rng) -> (usize, f64) {
-    let [x, y, z, phi, w, _] = random(rng);
+    let [x, y, z, phi, w, ..] = random(rng);
     let triangle = usize::from(y > x);
     let p = Vec3::new(2.0 * x - 1.0, 2.0 * y - 1.0, 1.0);
     let bary = if triangle == 0 { (y, x - y) } else { (y - x, x) };
@@ -129,9 +129,9 @@ fn light_is_sent_out_as_it_is_emitted() {
             sums[which][CELLS].add(flux);
         };
         for _ in 0..100_000 {
-            let [a, b, c, d, e, w] = random(&mut rng);
+            let [a, b, c, f, d, e, w] = random(&mut rng);
             let lambda = SampledWavelengths::sample(w);
-            match table.sample_emission([a, b, c], [d, e], &lambda) {
+            match table.sample_emission([a, b, c, f], [d, e], &lambda) {
                 Some(sent) => {
                     let point = sent.point.expect("a lamp");
                     assert!(sent.direction.dot(point.n) > 0.0);
@@ -162,9 +162,9 @@ fn emission_states_its_densities() {
         let front = front(name);
         let mut rng = Rng::new(21);
         for _ in 0..3000 {
-            let [a, b, c, d, e, w] = random(&mut rng);
+            let [a, b, c, f, d, e, w] = random(&mut rng);
             let lambda = SampledWavelengths::sample(w);
-            let Some(sent) = table.sample_emission([a, b, c], [d, e], &lambda) else { continue };
+            let Some(sent) = table.sample_emission([a, b, c, f], [d, e], &lambda) else { continue };
             let at = sent.point.expect("a lamp");
             let met = hit(at.triangle as usize, at.bary, at.p, front);
             let pdf = table.pdf_emission_object(&met, sent.direction);
@@ -193,9 +193,9 @@ fn drawn_light_estimates_the_irradiance() {
         for to in &receivers {
             let mut rng = Rng::new(22);
             let drawn = Moments::of((0..60_000).map(|_| {
-                let [a, b, c, w, ..] = random(&mut rng);
+                let [a, b, c, f, w, ..] = random(&mut rng);
                 let lambda = SampledWavelengths::sample(w);
-                let Some(light) = table.sample(to, [a, b, c], &lambda) else { return 0.0 };
+                let Some(light) = table.sample(to, [a, b, c, f], &lambda) else { return 0.0 };
                 let at = light.point.expect("a lamp");
                 let met = hit(at.triangle as usize, at.bary, at.p, front);
                 let stated = table.pdf_object(&met, to);
@@ -231,9 +231,9 @@ fn a_textured_lamp_can_be_scaled_to_a_flux() {
     let table = table(&lamp);
     let mut rng = Rng::new(23);
     let sent = Moments::of((0..400_000).map(|_| {
-        let [a, b, c, d, e, w] = random(&mut rng);
+        let [a, b, c, f, d, e, w] = random(&mut rng);
         let lambda = SampledWavelengths::sample(w);
-        let sent = table.sample_emission([a, b, c], [d, e], &lambda);
+        let sent = table.sample_emission([a, b, c, f], [d, e], &lambda);
         sent.map_or(0.0, |s| luminance(s.throughput(), &lambda))
     }));
     let test: MeanTest = welch(&sent, &Moments::exact(1750.0), 1e-3 * 1750.0).at(1e-4);
@@ -249,8 +249,8 @@ fn points_follow_the_texture() {
     let mut weights = Moments::default();
     let mut evenly = Moments::default();
     for _ in 0..20_000 {
-        let [a, b, c, d, e, w] = random(&mut rng);
-        let sent = table.sample_emission([a, b, c], [d, e], &SampledWavelengths::sample(w));
+        let [a, b, c, f, d, e, w] = random(&mut rng);
+        let sent = table.sample_emission([a, b, c, f], [d, e], &SampledWavelengths::sample(w));
         weights.add(sent.map_or(0.0, |s| s.throughput().mean() as f64));
         evenly.add(even(&table, -1.0, &mut rng).1);
     }

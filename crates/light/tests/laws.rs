@@ -92,7 +92,7 @@ fn wavelengths() -> SampledWavelengths {
 }
 
 fn draw(table: &LightTable, rng: &mut Rng) -> Option<LightSample> {
-    let u = [0; 3].map(|_| rng.uniform_f32() as Real);
+    let u = [0; 4].map(|_| rng.uniform_f32() as Real);
     table.sample(&Receiver::facing(P, N), u, &wavelengths())
 }
 
@@ -209,7 +209,7 @@ fn what_is_no_light_has_no_density_and_no_light() {
         assert!(table.environment(N, &lambda).is_none());
         assert_eq!(table.pdf_environment(&to, N), 0.0);
     }
-    assert!(none().sample(&to, [0.5; 3], &lambda).is_none());
+    assert!(none().sample(&to, [0.5; 4], &lambda).is_none());
 }
 
 /// A table whose lights are all black chooses among them all the same, and never reports a number
@@ -341,7 +341,7 @@ fn emission_states_its_densities() {
     let mut rng = Rng::new(10);
     let (mut lamps, mut skies) = (0, 0);
     for _ in 0..5000 {
-        let u = [0; 3].map(|_| rng.uniform_f32() as Real);
+        let u = [0; 4].map(|_| rng.uniform_f32() as Real);
         let v = [0; 2].map(|_| rng.uniform_f32() as Real);
         let Some(e) = table.sample_emission(u, v, &wavelengths()) else { continue };
         assert!(e.throughput().is_finite() && e.throughput().min_lane() >= 0.0);

@@ -105,9 +105,9 @@ fn illuminance(lights: &LightTable, p: Vec3d, samples: u32, rng: &mut Rng) -> Mo
     let to_lamp = (Vec3d::new(0.0, 0.0, 2.0) - p).normalized();
     let to = Receiver::all_round(p.cast());
     Moments::of((0..samples).map(|_| {
-        let [a, b, c, w] = [0; 4].map(|_| rng.uniform_f32() as Real);
+        let [a, b, c, f, w] = [0; 5].map(|_| rng.uniform_f32() as Real);
         let lambda = SampledWavelengths::sample(w);
-        let Some(light) = lights.sample(&to, [a, b, c], &lambda) else { return 0.0 };
+        let Some(light) = lights.sample(&to, [a, b, c, f], &lambda) else { return 0.0 };
         let cos = light.wi.dot(to_lamp.cast::<Real>()) as f64;
         luminance(light.radiance, &lambda) * cos / light.pdf as f64
     }))
@@ -152,9 +152,9 @@ fn lamps_have_their_lumens() {
             welch(&lumens(&lights, &mut rng), &Moments::exact(expected), 1e-3 * expected).at(level);
         assert!(test.passed() && test.std_error < 0.02 * expected, "{more}: {test}");
         let sent = Moments::of((0..60_000).map(|_| {
-            let [a, b, c, d, e, w] = [0; 6].map(|_| rng.uniform_f32() as Real);
+            let [a, b, c, f, d, e, w] = [0; 7].map(|_| rng.uniform_f32() as Real);
             let lambda = SampledWavelengths::sample(w);
-            let sent = lights.sample_emission([a, b, c], [d, e], &lambda);
+            let sent = lights.sample_emission([a, b, c, f], [d, e], &lambda);
             sent.map_or(0.0, |s| luminance(s.throughput(), &lambda))
         }));
         let test: MeanTest = welch(&sent, &Moments::exact(expected), 1e-3 * expected).at(level);
@@ -220,9 +220,9 @@ fn a_texture_modulates_the_lamp() {
         let mut rng = Rng::new(33);
         let mut sides = [0.0; 2];
         for _ in 0..40_000 {
-            let [a, b, c, d, e, w] = [0; 6].map(|_| rng.uniform_f32() as Real);
+            let [a, b, c, f, d, e, w] = [0; 7].map(|_| rng.uniform_f32() as Real);
             let lambda = SampledWavelengths::sample(w);
-            if let Some(sent) = lights.sample_emission([a, b, c], [d, e], &lambda) {
+            if let Some(sent) = lights.sample_emission([a, b, c, f], [d, e], &lambda) {
                 let p: Vec3 = sent.origin;
                 sides[usize::from(p.x > 0.0)] += luminance(sent.throughput(), &lambda) / 4e4;
             }

@@ -15,7 +15,8 @@ impl Block {
     pub const FILM: Self = Self(0);
     /// Lens x and y, and the direction in which light leaves a lamp.
     pub const LENS: Self = Self(1);
-    /// Choice of light and a point on it or a direction towards it, where light paths begin; one is free.
+    /// Choice of light, a point on it or a direction towards it, and the choice's further digits, where light
+    /// paths begin.
     pub const EMISSION: Self = Self(2);
 
     /// Diffraction at the camera's aperture; two are free.
@@ -28,8 +29,9 @@ impl Block {
         Self(4 + Self::STRIDE * vertex + which)
     }
 
-    /// Choice of light, two numbers for the point or direction on it, and roulette, at a vertex of the
-    /// camera's path.
+    /// Choice of light, two numbers for the point or direction on it, and both roulette and the further digits
+    /// of the choice, at a vertex of the camera's path. The two may share a number, since they decide about
+    /// different terms of a sum: light that is drawn here, and what the path finds beyond.
     pub const fn light(vertex: u32) -> Self {
         Self::of(vertex, 0)
     }

@@ -70,8 +70,7 @@ fn drawn(
     u: [Real; 4],
     lambda: &SampledWavelengths,
 ) -> SampledSpectrum {
-    let Some(light) = scene.lights.sample(&Receiver::facing(at.p, shading.n_g()), [u[0], u[1], u[2]], lambda)
-    else {
+    let Some(light) = scene.lights.sample(&Receiver::facing(at.p, shading.n_g()), u, lambda) else {
         return SampledSpectrum::ZERO;
     };
     let origin = leave(scene, at, light.wi);

@@ -1,8 +1,9 @@
 //! Looks for openings that no exit portal covers.
 //!
-//! Paths from the camera that bounce off everything they meet are followed until they leave the scene.
-//! One that leaves beside all portals has found an opening; one that leaves through the back of a portal
-//! shows that its triangles are wound the wrong way. Such light is not lost, but found by chance alone.
+//! Paths from the camera that bounce off everything they meet are followed until they leave the interior, by a
+//! portal or into empty space. One that leaves beside all portals has found an opening; one that passes the
+//! back of a portal shows that its triangles are wound the wrong way. Such light is not lost, but found by
+//! chance alone.
 
 use super::Context;
 use crate::codes;
@@ -12,13 +13,13 @@ use indigo_geom::{Accel, Ray, offset_origin};
 use indigo_light::{LightTable, Passage, Portals};
 use indigo_math::rng::{Rng, key};
 use indigo_math::warp::uniform_sphere;
-use indigo_math::{Vec2, Vec3, Vec3d};
+use indigo_math::{Real, Vec2, Vec3, Vec3d};
 
 /// Paths that are followed, and how many bounces each.
 const PATHS: u32 = 1024;
 const BOUNCES: u32 = 6;
 
-/// How a path left the scene, and where from.
+/// How a path left the interior, and where from.
 struct Exit {
     passage: Passage,
     p: Vec3,
@@ -58,14 +59,17 @@ pub(super) fn warn_of_openings(
     );
 }
 
-/// A path from the camera until it leaves the scene; `None` if it does not in time.
+/// A path from the camera until it leaves the interior; `None` if it does not in time.
 fn follow(accel: &Accel, portals: &Portals, rng: &mut Rng) -> Option<Exit> {
     let mut p = Vec3::ZERO;
     let mut direction = uniform_sphere(Vec2::new(rng.next_real(), rng.next_real()));
     for _ in 0..BOUNCES {
         let ray = Ray::new(p, direction);
-        let Some(hit) = accel.intersect(&ray) else {
-            return Some(Exit { passage: portals.passage(p, direction), p, direction });
+        let hit = accel.intersect(&ray);
+        let passage = portals.passage(p, direction, hit.as_ref().map_or(Real::INFINITY, |hit| hit.t));
+        // What stands outside, before a window, is not the interior's.
+        let Some(hit) = hit.filter(|_| passage == Passage::Beside) else {
+            return Some(Exit { passage, p, direction });
         };
         let at = accel.surface(&ray, &hit);
         let n = if direction.dot(at.n_g) > 0.0 { -at.n_g } else { at.n_g };

@@ -239,7 +239,7 @@ fn add_emission(world: &World, path: &mut Path, passage: &Passage, at: &SurfaceP
 #[inline]
 fn add_direct_light(world: &World, path: &mut Path, vertex: &Vertex, u: [Real; 4]) {
     let lights = &world.scene.lights;
-    let Some(light) = lights.sample(&vertex.receiver(), [u[0], u[1], u[2]], world.lambda) else {
+    let Some(light) = lights.sample(&vertex.receiver(), u, world.lambda) else {
         return;
     };
     let response = vertex.eval(light.wi, Mode::Radiance);

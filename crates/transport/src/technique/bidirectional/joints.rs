@@ -27,7 +27,7 @@ pub(super) fn draw_light(
         return SampledSpectrum::ZERO;
     }
     let p = end.vertex.point.p;
-    let Some(light) = lights.sample(&end.vertex.receiver(), [u[0], u[1], u[2]], world.lambda) else {
+    let Some(light) = lights.sample(&end.vertex.receiver(), u, world.lambda) else {
         return SampledSpectrum::ZERO;
     };
     let response = end.vertex.eval(light.wi, Mode::Radiance);

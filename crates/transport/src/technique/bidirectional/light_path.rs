@@ -50,9 +50,9 @@ impl LightPath {
         self.splats.clear();
         let world = &sample.world;
         let scene = world.scene;
-        let [u0, u1, u2, _] = numbers.block(Block::EMISSION);
+        let u = numbers.block(Block::EMISSION);
         let [_, _, v0, v1] = numbers.block(Block::LENS);
-        let Some(emission) = scene.lights.sample_emission([u0, u1, u2], [v0, v1], world.lambda) else {
+        let Some(emission) = scene.lights.sample_emission(u, [v0, v1], world.lambda) else {
             return;
         };
         let mut beta = emission.throughput();
