@@ -251,7 +251,7 @@ def portal_room():
     body += sphere("vase", "-0.45 3.45 0.56", 0.12)
     # On the outside of the walls, so that no point of a reveal lies beyond; fronts towards the interior.
     body += mesh("large", "plaster", [[(-2.2, 2.2, 0.8), (-2.2, 4.9, 0.8), (-2.2, 4.9, 2.2), (-2.2, 2.2, 2.2)]])
-    body += mesh("small", "plaster", [[(1.4, 6.2, 1.1), (0.5, 6.2, 1.1), (0.5, 6.2, 2.1), (1.4, 6.2, 2.1)]])
+    body += mesh("small", "plaster", [[(0.5, 6.2, 1.1), (1.4, 6.2, 1.1), (1.4, 6.2, 2.1), (0.5, 6.2, 2.1)]])
     body += placed("exit_portal", "large") + placed("exit_portal", "small")
     body += skylight("-1 -0.1 0.85", 3) + camera("0.35 0.3 1.45", "-0.09 1 -0.12", 0.02, "D55", 4)
     what = "A room that sun and sky light through two windows.\n\nA portal in each window leads light paths in; without them most would be lost on the walls outside.\nCompare without the exit_portal elements."

@@ -155,8 +155,8 @@ mod tests {
         for (text, place, what) in [
             ("5 400 800 2\n1 1", "1:1", "a unit"),
             ("", "1:1", "a unit"),
-            ("4 400 400 2\n1 1", "1:2", "positive ends"),
-            ("4 -1 400 2\n1 1", "1:2", "positive ends"),
+            ("4 400 400 2\n1 1", "1:2", "two different ends"),
+            ("4 -1 400 2\n1 1", "1:2", "two different ends"),
             ("4 400 800 7\n1 1\n2 2\n", "1:10", "as many pairs"),
             ("4 400 800 1\n1 1\n2", "3:2", "k, the second"),
             ("4 400 800 1\n1 1\n2 -2", "3:2", "n and k from 0"),

@@ -4,6 +4,7 @@
 pub mod judge;
 pub mod shapes;
 pub mod text;
+pub mod window;
 
 use indigo_decl::{ResolveError, Resolved, Resolver};
 use indigo_diag::{Style, to_text};

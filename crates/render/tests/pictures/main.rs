@@ -14,4 +14,5 @@ mod furnace;
 mod lens;
 mod materials;
 mod media;
+mod portals;
 mod surfaces;

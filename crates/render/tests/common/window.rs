@@ -1,0 +1,72 @@
+//! A room that light enters by one window, with and without a portal, and how noisy its pictures are.
+
+use super::film;
+use super::shapes::{Mesh, Point, model};
+use super::text::{background, camera, grey, scene_file, settings, uniform};
+use indigo_scene::Scene;
+
+/// Side of the pictures.
+pub const SIDE: u32 = 12;
+
+/// 4 m by 6 m by 2.6 m with a window of one square metre in the wall at the left.
+fn walls() -> Mesh {
+    let across = |x: f64, [y0, y1]: [f64; 2], [z0, z1]: [f64; 2]| -> [Point; 4] {
+        [[x, y0, z0], [x, y1, z0], [x, y1, z1], [x, y0, z1]]
+    };
+    let level = |z: f64| -> [Point; 4] { [[-2.0, 0.0, z], [2.0, 0.0, z], [2.0, 6.0, z], [-2.0, 6.0, z]] };
+    let end = |y: f64| -> [Point; 4] { [[-2.0, y, 0.0], [2.0, y, 0.0], [2.0, y, 2.6], [-2.0, y, 2.6]] };
+    let faces = [
+        level(0.0),
+        level(2.6),
+        end(0.0),
+        end(6.0),
+        across(2.0, [0.0, 6.0], [0.0, 2.6]),
+        across(-2.0, [0.0, 2.5], [0.0, 2.6]),
+        across(-2.0, [3.5, 6.0], [0.0, 2.6]),
+        across(-2.0, [2.5, 3.5], [0.0, 1.0]),
+        across(-2.0, [2.5, 3.5], [2.0, 2.6]),
+    ];
+    let mut mesh = Mesh { points: vec![], triangles: vec![] };
+    for face in faces {
+        let i = mesh.points.len();
+        mesh.points.extend(face);
+        mesh.triangles.extend([[i, i + 1, i + 2], [i, i + 2, i + 3]]);
+    }
+    mesh
+}
+
+/// The room's scene.
+pub fn room(has_portal: bool) -> String {
+    let (low, high) = (1.0, 2.0);
+    let window = vec![[-2.0, 2.5, low], [-2.0, 3.5, low], [-2.0, 3.5, high], [-2.0, 2.5, high]];
+    let portal = [
+        Mesh::polygon(window).text("window", "wall"),
+        model("window").replace("<model>", "<exit_portal>").replace("</model>", "</exit_portal>"),
+    ];
+    let portal = if has_portal { portal.concat() } else { String::new() };
+    scene_file(&[
+        settings(SIDE, ""),
+        camera([1.4, 0.4, 1.4], [-0.3, 1.0, -0.15], 0.7, ""),
+        grey("wall", 0.7),
+        walls().text("walls", "wall"),
+        model("walls"),
+        background(&uniform(1e6)),
+        portal,
+    ])
+}
+
+/// Luminance of each pixel.
+pub fn luminances(scene: &Scene, seed: u64, passes: u64) -> Vec<f64> {
+    film(scene, seed, passes).develop().pixels.iter().map(|p| f64::from(p[1])).collect()
+}
+
+/// Mean of the pixels' squared errors over their squared values, of some pictures.
+pub fn rel_mse(scene: &Scene, truth: &[f64], seeds: std::ops::Range<u64>, passes: u64) -> f64 {
+    let pictures = seeds.end - seeds.start;
+    let error = |seed| {
+        let picture = luminances(scene, seed, passes);
+        let pixels = picture.iter().zip(truth).map(|(v, t)| (v / t - 1.0).powi(2));
+        pixels.sum::<f64>() / truth.len() as f64
+    };
+    seeds.map(error).sum::<f64>() / pictures as f64
+}
