@@ -42,6 +42,11 @@ impl Camera {
         Self { lens, aperture, deflection: None }
     }
 
+    /// Radius of the opening, metres: how far from the camera's position a ray may begin.
+    pub fn aperture_radius(&self) -> Real {
+        self.lens.aperture_radius()
+    }
+
     /// The same camera with diffraction by ray: `field` is the far field of what light passes.
     #[must_use]
     pub fn with_diffraction(self, field: &FarField) -> Self {

@@ -69,6 +69,11 @@ pub struct FilmPosition {
 }
 
 impl ThinLens {
+    /// Radius of the aperture, metres.
+    pub fn aperture_radius(&self) -> Real {
+        self.aperture_radius
+    }
+
     /// A lens from its parameters; `None` where `forwards` and `up` do not span a plane.
     pub fn new(p: &ThinLensParameters) -> Option<Self> {
         let forwards = p.forwards.try_normalized()?;

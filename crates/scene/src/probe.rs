@@ -54,6 +54,30 @@ impl Scene {
         found.iter().rev().max_by_key(votes).copied().unwrap_or(MediumStack::AIR)
     }
 
+    /// The media in which a camera ray begins.
+    #[inline]
+    pub fn camera_media_along(&self, ray: &Ray) -> MediumStack {
+        if self.camera_meets_interface { self.media_towards(ray.o, ray.d) } else { self.camera_media }
+    }
+
+    /// Whether the surface of a medium passes the camera within twice its aperture: probes lean by less than
+    /// 60 degrees towards any plane, so that one of them meets what passes within the aperture itself.
+    fn is_interface_near_camera(&self) -> bool {
+        let reach = 2.0 * self.camera.aperture_radius().max(self.nudge_m);
+        DIRECTIONS.iter().any(|&d| {
+            let d = Vec3::from(d);
+            let mut ray = Ray { o: d * -reach, d, t_min: 0.0, t_max: 2.0 * reach };
+            while let Some(hit) = self.accel.intersect(&ray) {
+                let at = self.accel.surface(&ray, &hit);
+                if self.material_at(&at).internal_medium().is_some() {
+                    return true;
+                }
+                ray = ray.beyond(hit.t, at.p_error.length());
+            }
+            false
+        })
+    }
+
     /// The media round a point `p` of lamp number `lamp`, from which light leaves in a direction.
     #[inline]
     pub fn media_at_lamp(&self, lamp: u32, p: Vec3, direction: Vec3) -> MediumStack {
@@ -70,6 +94,7 @@ impl Scene {
             return;
         }
         self.camera_media = self.media_at(Vec3::ZERO);
+        self.camera_meets_interface = self.is_interface_near_camera();
         let objects = 0..self.accel.objects().len() as u32;
         let bounds = |i: u32| self.accel.object_bounds(i);
         let interfaces: Vec<_> = objects.clone().filter(|&i| self.is_interface(i)).map(bounds).collect();

@@ -27,8 +27,10 @@ pub struct Scene {
     pub(crate) slots: Vec<u32>,
     /// All media, of which the first is air; none where no material has anything inside.
     pub media: Vec<Medium>,
-    /// The media round the camera.
+    /// The media round the camera, or most of it.
     pub camera_media: MediumStack,
+    /// Whether the surface of a medium is so near that rays may begin on both its sides.
+    pub(crate) camera_meets_interface: bool,
     /// For each lamp the media round all of it, or `None` where they must be looked for.
     pub(crate) lamp_media: Vec<Option<MediumStack>>,
     /// Whether light may pass some surface as if it were not there, so that rays must look for them.

@@ -56,8 +56,8 @@ const COMMANDS: &[Command] = &[
     },
     Command {
         name: "scenes",
-        arguments: "million|embedded|instances|all",
-        about: "write the big test scenes into testscenes/generated",
+        arguments: "SCENE|all",
+        about: "write the scenes that are made by program into testscenes/generated; without SCENE their list",
         run: scenes::run,
     },
     Command {

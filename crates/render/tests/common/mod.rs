@@ -11,10 +11,11 @@ use indigo_diag::{Style, to_text};
 use indigo_film::FilmState;
 use indigo_geom::NoStore;
 use indigo_igs::Limits;
-use indigo_scene::{LoadOptions, Scene, load};
+use indigo_scene::{LoadOptions, MetropolisSettings, Scene, load};
 use indigo_testkit::stats::Moments;
 use indigo_transport::driver::Driver;
 use std::collections::HashMap;
+use std::fmt;
 
 /// Files by name.
 #[derive(Default)]
@@ -124,4 +125,47 @@ pub fn measure_regions(scene: &Scene, regions: &[Region], batches: u64, passes: 
 /// [`measure_regions`] of the whole picture.
 pub fn measure(scene: &Scene, batches: u64, passes: u64) -> Measured {
     measure_regions(scene, &[whole(scene)], batches, passes).remove(0)
+}
+
+/// A technique under a driver.
+#[derive(Clone, Copy)]
+pub struct Mode {
+    pub bidirectional: bool,
+    pub metropolis: bool,
+}
+
+/// All of them; the first is plain path tracing.
+pub const MODES: [Mode; 4] = [mode(false, false), mode(true, false), mode(false, true), mode(true, true)];
+
+const fn mode(bidirectional: bool, metropolis: bool) -> Mode {
+    Mode { bidirectional, metropolis }
+}
+
+impl fmt::Display for Mode {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(if self.bidirectional { "bidirectional" } else { "path" })?;
+        f.write_str(if self.metropolis { ", Metropolis" } else { "" })
+    }
+}
+
+impl Mode {
+    /// Makes a scene render in this mode.
+    pub fn set(self, scene: &mut Scene) {
+        scene.transport.bidirectional = self.bidirectional;
+        scene.transport.metropolis = self.metropolis.then_some(MetropolisSettings {
+            large_mutation_prob: 0.5,
+            max_change: 0.02,
+            // What the manual's finite default does is a bias, if a tiny one.
+            max_consecutive_rejections: i64::MAX,
+        });
+    }
+}
+
+/// Mean luminances of developed pictures in a mode.
+pub fn luminance_in_mode(scene: &mut Scene, mode: Mode, batches: u64, passes: u64) -> Moments {
+    mode.set(scene);
+    Moments::of((0..batches).map(|seed| {
+        let picture = film(scene, 7000 + seed, passes).develop();
+        picture.pixels.iter().map(|p| f64::from(p[1])).sum::<f64>() / picture.pixels.len() as f64
+    }))
 }

@@ -29,6 +29,9 @@ pub fn settings(side: u32, more: &str) -> String {
     )
 }
 
+/// Settings for a film that keeps each sample in its own pixel, so that none is lost over its edge.
+pub const ONE_PIXEL: &str = "<splat_filter><box></box></splat_filter>";
+
 /// A spectrum of one value.
 pub fn uniform(value: f64) -> String {
     format!("<uniform><value>{value}</value></uniform>")

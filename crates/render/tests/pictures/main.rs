@@ -8,6 +8,7 @@ mod common;
 
 mod colour;
 mod direct_light;
+mod effects;
 mod exposure;
 mod first_hits;
 mod furnace;
@@ -15,4 +16,7 @@ mod lens;
 mod materials;
 mod media;
 mod portals;
+mod prism;
 mod surfaces;
+mod thick;
+mod wine_glass;

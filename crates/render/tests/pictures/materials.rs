@@ -3,9 +3,9 @@
 use super::common::judge::{NITS_PER_UNIFORM, assert_near};
 use super::common::shapes::{Mesh, model};
 use super::common::text::{
-    background, basic, flat_camera, grey, medium, null, scene_file, settings, uniform,
+    ONE_PIXEL, background, basic, flat_camera, grey, medium, null, scene_file, settings, uniform,
 };
-use super::common::{Measured, measure, scene_with};
+use super::common::{MODES, Measured, luminance_in_mode, measure, scene_with};
 use indigo_geom::Ray;
 use indigo_imaging::{LinearImage, Metadata, exr};
 use indigo_math::{Real, Vec3};
@@ -14,7 +14,7 @@ use indigo_scene::Scene;
 use indigo_spectrum::SampledWavelengths;
 use indigo_testkit::quadrature::sphere;
 
-const RADIANCE: f64 = 1.0e5;
+pub const RADIANCE: f64 = 1.0e5;
 const WHITE: &str = "<uniform><value>1</value></uniform>";
 
 /// A picture of one row of greys.
@@ -26,11 +26,11 @@ fn row(values: &[f32]) -> Vec<u8> {
 
 /// A square of side 2 of a kind of material, seen from an angle to its normal, in even light. `others` are further
 /// elements of the scene; the maps are `half.exr`, all 0.5, and `ramp.exr`, from 0 up to 1 along u.
-fn sheet_with(kind: &str, degrees: f64, more_settings: &str, others: &str) -> Scene {
+pub fn sheet_with(kind: &str, degrees: f64, more_settings: &str, others: &str) -> Scene {
     let (sin, cos) = degrees.to_radians().sin_cos();
     let ramp: Vec<f32> = (0..64).map(|i| i as f32 / 64.0).collect();
     let text = scene_file(&[
-        settings(4, more_settings),
+        settings(4, &format!("{ONE_PIXEL}{more_settings}")),
         flat_camera([5.0 * sin, 0.0, 5.0 * cos], [-sin, 0.0, -cos], 1e-3),
         format!("<material><name>m</name>{kind}</material>"),
         "<mesh><name>sheet</name><embedded><expose_uv_set><index>0</index><name>default</name></expose_uv_set>\
@@ -51,8 +51,8 @@ fn sheet(kind: &str, degrees: f64) -> Scene {
     sheet_with(kind, degrees, "", "")
 }
 
-/// The model where the camera's axis meets the sheet.
-fn point(scene: &Scene, degrees: f64, nm: Real) -> ShadingPoint {
+/// The model where the camera's axis meets the sheet, in air.
+pub fn point(scene: &Scene, degrees: f64, nm: Real) -> ShadingPoint {
     let (sin, cos) = degrees.to_radians().sin_cos();
     let wo = Vec3::new(sin as Real, 0.0, cos as Real);
     let ray = Ray::new(Vec3::ZERO, -wo);
@@ -88,10 +88,21 @@ fn assert_shows(what: &str, measured: &Measured, albedo: f64, tolerance: f64) {
     assert_near(what, measured.luminance(), albedo * RADIANCE * NITS_PER_UNIFORM, tolerance);
 }
 
-#[test]
-fn every_material_shows_its_albedo_in_even_light() {
+/// A medium of which nothing comes back: what enters it is lost.
+fn dark(ior: f64) -> String {
+    medium("dark", 10, &basic(ior, &uniform(1e9), ""))
+}
+
+const OPAQUE: &str =
+    "<specular><transparent>false</transparent><internal_medium_name>dark</internal_medium_name></specular>";
+
+/// A kind, what else its scene holds, and its albedo as a function of the angle.
+type Expectation = (String, String, Box<dyn Fn(f64) -> f64>);
+
+fn expectations() -> Vec<Expectation> {
     let grey_spectrum = uniform(0.6);
-    let kinds = [
+    let models = [
+        format!("<diffuse><albedo_spectrum>{grey_spectrum}</albedo_spectrum></diffuse>"),
         format!(
             "<oren_nayar><sigma>0.6</sigma><albedo_spectrum>{grey_spectrum}</albedo_spectrum></oren_nayar>"
         ),
@@ -105,12 +116,33 @@ fn every_material_shows_its_albedo_in_even_light() {
             "<exponent>5</exponent><specular_reflectivity_spectrum>{grey_spectrum}</specular_reflectivity_spectrum>"
         )),
     ];
-    for kind in kinds {
-        for (degrees, technique) in [(0.0, "false"), (75.0, "false"), (60.0, "true")] {
-            let expected = albedo(&kind, degrees, 550.0);
-            let scene = sheet(&kind, degrees);
-            let scene = with_technique(scene, technique == "true");
-            assert_shows(&format!("{kind} at {degrees}°"), &measure(&scene, 16, 192), expected, 2e-3);
+    let mut all: Vec<Expectation> = models
+        .into_iter()
+        .map(|kind| -> Expectation {
+            (kind.clone(), String::new(), Box::new(move |degrees| albedo(&kind, degrees, 550.0)))
+        })
+        .collect();
+    let fresnel = |degrees: f64| {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        let cos_t = (1.0 - (sin / 1.5f64).powi(2)).sqrt();
+        let (s, p) = ((cos - 1.5 * cos_t) / (cos + 1.5 * cos_t), (1.5 * cos - cos_t) / (1.5 * cos + cos_t));
+        0.5 * (s * s + p * p)
+    };
+    all.push((OPAQUE.to_owned(), dark(1.5), Box::new(fresnel)));
+    all
+}
+
+#[test]
+fn every_material_shows_its_albedo_in_even_light() {
+    for (kind, others, albedo) in expectations() {
+        let views = [(0.0, MODES[0]), (75.0, MODES[0]), (60.0, MODES[1]), (60.0, MODES[2]), (60.0, MODES[3])];
+        for (degrees, mode) in views {
+            let mut scene = sheet_with(&kind, degrees, "", &others);
+            // A chain's neighbours are alike, so it takes more of them.
+            let passes = if mode.metropolis { 4096 } else { 384 };
+            let measured = luminance_in_mode(&mut scene, mode, 16, passes);
+            let expected = albedo(degrees) * RADIANCE * NITS_PER_UNIFORM;
+            assert_near(&format!("{kind} at {degrees}°, {mode}"), &measured, expected, 2e-3);
         }
     }
 }
@@ -124,6 +156,7 @@ fn with_technique(mut scene: Scene, bidirectional: bool) -> Scene {
 fn what_absorbs_nothing_is_not_to_be_told_from_its_surroundings() {
     let white = |name: &str| format!("<{name}>{WHITE}</{name}>");
     let lossless = [
+        format!("<diffuse>{}</diffuse>", white("albedo_spectrum")),
         format!("<oren_nayar><sigma>0.9</sigma>{}</oren_nayar>", white("albedo_spectrum")),
         format!("<diffuse_transmitter>{}</diffuse_transmitter>", white("albedo_spectrum")),
         phong(&format!("<ior>1.5</ior><exponent>10</exponent>{}", white("diffuse_albedo_spectrum"))),

@@ -3,19 +3,19 @@
 use super::common::judge::{NITS_PER_UNIFORM, assert_is, assert_near};
 use super::common::shapes::{Mesh, model};
 use super::common::text::{
-    background, basic, flat_camera, henyey_greenstein, medium, scattering, scene_file, settings, specular,
-    sphere, uniform,
+    ONE_PIXEL, background, basic, flat_camera, henyey_greenstein, medium, scattering, scene_file, settings,
+    specular, sphere, uniform,
 };
-use super::common::{Measured, film, measure, scene};
-use indigo_scene::{MetropolisSettings, Scene};
-use indigo_testkit::stats::Moments;
+use super::common::{MODES, Measured, luminance_in_mode, measure, scene};
+use indigo_scene::Scene;
 
 /// Spectral radiance of the surroundings, W m^-3 sr^-1.
 const AROUND: f64 = 3.0e4;
 
 /// Objects before a camera that sees a width of ±`tangent`, in light that is the same from everywhere.
 fn in_uniform_light(pos: [f64; 3], tangent: f64, parts: &[String]) -> Scene {
-    let head = [settings(16, ""), flat_camera(pos, [0.0, 1.0, 0.0], tangent), background(&uniform(AROUND))];
+    let head =
+        [settings(16, ONE_PIXEL), flat_camera(pos, [0.0, 1.0, 0.0], tangent), background(&uniform(AROUND))];
     scene(&scene_file(&[head.as_slice(), parts].concat()))
 }
 
@@ -50,10 +50,10 @@ fn clear_glass_in_even_light_is_invisible() {
     ] {
         let glass =
             [clear("g", 10, 1.5), specular("glass", "g"), clear("a", 20, 1.0), specular("hollow", "a")];
-        for bidirectional in [false, true] {
-            let mut scene = in_uniform_light([0.0, -5.0, 0.0], 0.21, &[glass.concat(), object.clone()]);
-            scene.transport.bidirectional = bidirectional;
-            assert_luminance(name, &measure(&scene, 8, 32), 1.0);
+        let mut scene = in_uniform_light([0.0, -5.0, 0.0], 0.21, &[glass.concat(), object.clone()]);
+        for mode in MODES {
+            let measured = luminance_in_mode(&mut scene, mode, 16, 64);
+            assert_is(&format!("{name}, {mode}"), &measured, AROUND * NITS_PER_UNIFORM, 1e-3);
         }
     }
 }
@@ -153,36 +153,14 @@ fn scatters(ior: f64, absorption: f64, coefficient: f64, g: f64) -> String {
     medium("m", 10, &basic(ior, &uniform(absorption), &phase)) + &specular("surface", "m")
 }
 
-/// Techniques and drivers, with how many samples a pixel takes for the same accuracy.
-const MODES: [(&str, bool, bool, u64); 4] = [
-    ("path", false, false, 96),
-    ("bidirectional", true, false, 96),
-    ("path, Metropolis", false, true, 128),
-    ("bidirectional, Metropolis", true, true, 128),
-];
-
-/// Mean luminances of developed pictures in a mode.
-fn luminance_in_mode(scene: &mut Scene, bidirectional: bool, metropolis: bool, passes: u64) -> Moments {
-    scene.transport.bidirectional = bidirectional;
-    scene.transport.metropolis = metropolis.then_some(MetropolisSettings {
-        large_mutation_prob: 0.5,
-        max_change: 0.02,
-        max_consecutive_rejections: i64::MAX,
-    });
-    Moments::of((0..16).map(|seed| {
-        let picture = film(scene, 7000 + seed, passes).develop();
-        picture.pixels.iter().map(|p| f64::from(p[1])).sum::<f64>() / picture.pixels.len() as f64
-    }))
-}
-
 /// Whatever scatters without absorbing cannot be seen in even light: by every technique and driver.
 #[test]
 fn a_scattering_ball_in_even_light_is_invisible() {
     for (what, ior) in [("fog", 1.0), ("glass", 1.3)] {
         let parts = [scatters(ior, 0.0, 1.5, 0.5), sphere([0.0; 3], 0.5, "surface")];
         let mut scene = in_uniform_light([0.0, -5.0, 0.0], 0.05, &parts);
-        for (mode, bidirectional, metropolis, passes) in MODES {
-            let measured = luminance_in_mode(&mut scene, bidirectional, metropolis, passes);
+        for mode in MODES {
+            let measured = luminance_in_mode(&mut scene, mode, 16, if mode.metropolis { 128 } else { 96 });
             assert_is(&format!("{what}, {mode}"), &measured, AROUND * NITS_PER_UNIFORM, 4e-3);
         }
     }
@@ -207,9 +185,9 @@ fn single_scattering_has_its_closed_form() {
         coefficient * (-extinction * (x + radius)).exp() * integral(-1.0, 1.0, lit)
     };
     let expected = (-2.0 * extinction * radius).exp() + integral(-radius, radius, scattered);
-    for (mode, bidirectional, metropolis, passes) in MODES {
-        let measured = luminance_in_mode(&mut scene, bidirectional, metropolis, passes);
-        assert_is(mode, &measured, AROUND * NITS_PER_UNIFORM * expected, 6e-3);
+    for mode in MODES {
+        let measured = luminance_in_mode(&mut scene, mode, 16, if mode.metropolis { 128 } else { 96 });
+        assert_is(&mode.to_string(), &measured, AROUND * NITS_PER_UNIFORM * expected, 6e-3);
     }
 }
 
@@ -227,7 +205,7 @@ fn a_ball_of_fog_is_as_bright_as_another_program_has_it() {
     let parts = [scatters(1.0, 0.5, 2.0, 0.6), sphere([0.0; 3], 1.0, "surface")];
     // The middle eighth of a field of 20 degrees.
     let mut scene = in_uniform_light([0.0, -5.0, 0.0], 10f64.to_radians().tan() / 8.0, &parts);
-    let measured = luminance_in_mode(&mut scene, false, false, 256);
+    let measured = luminance_in_mode(&mut scene, MODES[0], 16, 256);
     assert_near("middle", &measured, AROUND * NITS_PER_UNIFORM * 0.432_291, 4e-3);
 }
 
@@ -246,7 +224,7 @@ fn a_half_space_shows_its_plane_albedo() {
         model("slab"),
     ];
     let mut scene = in_uniform_light([0.0, -1.0, 0.0], 1e-3, &parts);
-    let measured = luminance_in_mode(&mut scene, false, false, 256);
+    let measured = luminance_in_mode(&mut scene, MODES[0], 16, 256);
     assert_is("along the normal", &measured, AROUND * NITS_PER_UNIFORM * 0.414_947_5, 5e-3);
 }
 
@@ -257,4 +235,65 @@ fn what_is_not_transparent_only_reflects() {
     let parts = [clear("m", 10, 1.5), opaque, sphere([0.0; 3], 1.0, "mirror")];
     let scene = in_uniform_light([0.0, -5.0, 0.0], 1e-3, &parts);
     assert_luminance("mirror", &measure(&scene, 8, 64), 0.04);
+}
+
+/// A camera whose lens lies exactly on the surface of a medium sees out of it and into it.
+#[test]
+fn a_camera_on_an_interface_knows_on_which_side_each_ray_leaves() {
+    let ball = sphere([0.0; 3], 0.5, "surface");
+    for (ior, y, expected) in [(1.0, 0.5, 1.0), (1.0, -0.5, (-3.0f64).exp()), (1.5, 0.5, 1.0)] {
+        let parts = [absorbing("m", 10, ior, 3.0), specular("surface", "m"), ball.clone()];
+        for bidirectional in [false, true] {
+            let mut scene = in_uniform_light([0.0, y, 0.0], 1e-3, &parts);
+            scene.transport.bidirectional = bidirectional;
+            assert_luminance(&format!("{ior} from {y}"), &measure(&scene, 8, 64), expected);
+        }
+    }
+}
+
+/// What no modeller should make: surfaces that are open, inside out, twice at one place, or nested too deep. A
+/// surface has its medium at its back, from wherever it is met; so nothing is lost, and clear media stay unseen.
+#[test]
+fn faulty_meshes_of_clear_media_make_no_light_and_lose_none() {
+    let inside_out = Mesh::ball(2).inside_out().text("cube", "glass") + &model("cube");
+    let twice = sphere([0.0; 3], 0.7, "glass") + &sphere([0.0; 3], 0.7, "glass");
+    let deep: String = (1..12).map(|i| sphere([0.0; 3], 0.08 * f64::from(i), &format!("m{i}"))).collect();
+    let deep_media: String = (1..12)
+        .map(|i| {
+            clear(&format!("d{i}"), 10 + i, 1.0 + 0.05 * f64::from(i))
+                + &specular(&format!("m{i}"), &format!("d{i}"))
+        })
+        .collect();
+    for (what, object) in [("inside out", inside_out), ("twice", twice), ("deep", deep)] {
+        let parts = [clear("g", 10, 1.5) + &specular("glass", "g") + &deep_media, object];
+        let mut scene = in_uniform_light([0.0, -5.0, 0.0], 0.21, &parts);
+        for mode in MODES {
+            let measured = luminance_in_mode(&mut scene, mode, 16, 64);
+            assert_is(&format!("{what}, {mode}"), &measured, AROUND * NITS_PER_UNIFORM, 1e-3);
+        }
+    }
+}
+
+/// The same of media that absorb and scatter: a picture of numbers, in every mode, none of it brighter than even light
+/// can be; that it is finite is checked where films are made.
+#[test]
+fn faulty_meshes_of_dense_media_have_a_finite_picture() {
+    let open = Mesh { triangles: Mesh::cube(0.7).triangles[2..].to_vec(), ..Mesh::cube(0.7) };
+    let inside_out = Mesh::cube(0.7).inside_out();
+    let sheet = Mesh::square(0.7, 0.0);
+    let objects = [("open", open), ("inside out", inside_out), ("a sheet", sheet)];
+    for (what, mesh) in objects {
+        for ior in [1.0, 1.4] {
+            let parts = [scatters(ior, 0.5, 5.0, 0.7), mesh.text("m", "surface"), model("m")];
+            for (place, pos) in [("outside", [0.0, -5.0, 0.0]), ("inside", [0.0, -0.2, 0.1])] {
+                let mut scene = in_uniform_light(pos, 0.3, &parts);
+                for mode in MODES {
+                    let measured = luminance_in_mode(&mut scene, mode, 2, 4);
+                    let share = measured.mean() / (AROUND * NITS_PER_UNIFORM);
+                    // The index of the medium in which the camera may be taken to be: squared.
+                    assert!((0.0..ior * ior * 1.1).contains(&share), "{what}, {place}, {mode}: {share}");
+                }
+            }
+        }
+    }
 }

@@ -21,7 +21,7 @@ pub static BLOCK: Block = Block::new(
             "albedo_spectrum",
             Kind::OneOf(&SPECTRUM),
             Presence::Optional,
-            "The fraction of light that is let through. Values outside [0, 1] are silently clamped.",
+            "The fraction of light that is let through, at least 0. Values above 1 are silently clamped.",
         ),
         Field::new(
             "colour",

@@ -16,6 +16,13 @@
 //! | 100 | 0.998 | 0.986 | 0.931 | 0.978 |
 //! | 1000 | 1.000 | 0.999 | 0.979 | 0.998 |
 //! | 10000 | 1.000 | 1.000 | 0.998 | 1.000 |
+//!
+//! And at other indices, at 0° from outside and from inside:
+//!
+//! | exponent | 1.1 | 1.33 | 2.0 | 2.42 |
+//! |---|---|---|---|---|
+//! | 10 | 0.995, 0.960 | 0.985, 0.875 | 0.962, 0.789 | 0.950, 0.781 |
+//! | 100 | 0.999, 0.995 | 0.998, 0.983 | 0.996, 0.976 | 0.995, 0.976 |
 
 use super::fields::{BUMP_MAP, INTERNAL_MEDIUM_NAME, LATER, bump_map};
 use super::{MaterialContext, MaterialResources, SurfaceKind};
@@ -246,6 +253,28 @@ mod tests {
             }
             let kept = kept(exponent, 0.0, 1.0 / 1.5);
             assert!((kept - inside).abs() < 0.005, "{exponent} from inside: {kept}");
+        }
+    }
+
+    /// Index, exponent, what is left from outside and from inside at 0°.
+    const OTHER_INDICES: [(Real, Real, [f64; 2]); 8] = [
+        (1.1, 10.0, [0.995, 0.960]),
+        (1.33, 10.0, [0.985, 0.875]),
+        (2.0, 10.0, [0.962, 0.789]),
+        (2.42, 10.0, [0.950, 0.781]),
+        (1.1, 100.0, [0.999, 0.995]),
+        (1.33, 100.0, [0.998, 0.983]),
+        (2.0, 100.0, [0.996, 0.976]),
+        (2.42, 100.0, [0.995, 0.976]),
+    ];
+
+    #[test]
+    fn losses_at_other_indices_are_as_stated() {
+        for (index, exponent, stated) in OTHER_INDICES {
+            let kept = [kept(exponent, 0.0, index), kept(exponent, 0.0, 1.0 / index)];
+            for (kept, stated) in kept.into_iter().zip(stated) {
+                assert!((kept - stated).abs() < 0.005, "{index}, {exponent}: {kept} instead of {stated}");
+            }
         }
     }
 

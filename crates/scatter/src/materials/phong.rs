@@ -40,7 +40,7 @@ pub static BLOCK: Block = Block::new(
             "diffuse_albedo_spectrum",
             FieldKind::OneOf(&SPECTRUM),
             Presence::Optional,
-            "The reflectance of the diffuse ground; black where it is missing. Values outside [0, 1] are \
+            "The reflectance of the diffuse ground, at least 0; black where it is missing. Values above 1 are \
              silently clamped. Has no effect on a metal.",
         ),
         Field::new(
@@ -78,7 +78,7 @@ pub static BLOCK: Block = Block::new(
             FieldKind::OneOf(&SPECTRUM),
             Presence::Optional,
             "Reflectivity of a metal at normal incidence; towards grazing angles it rises to 1 by Schlick's \
-             law. Values outside [0, 1] are silently clamped.",
+             law. At least 0; values above 1 are silently clamped.",
         ),
         ALBEDO_TEXTURE,
         BUMP_MAP,

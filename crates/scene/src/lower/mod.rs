@@ -176,6 +176,7 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
         textures,
         media,
         camera_media: MediumStack::AIR,
+        camera_meets_interface: false,
         lamp_media: vec![],
         materials,
         first_slot,

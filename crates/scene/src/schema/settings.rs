@@ -142,8 +142,8 @@ pub static RENDERER_SETTINGS: Block = Block::new(
         real(
             "ray_origin_nudge_distance",
             "1.0e-4",
-            "Rays start at least this far from the surface that they leave. 0 leaves it to the rounding-error \
-             bound of each hit.",
+            "Rays start at least this far from the surface that they leave, and surfaces that stand closer than \
+             this behind another one may be missed. 0 leaves it to the rounding-error bound of each hit.",
         )
         .unit("m")
         .range(Range::AtLeast(0.0)),

@@ -152,7 +152,7 @@ fn trace(world: &World, sample: &mut impl PrimarySample, camera: &CameraRay, eve
     let scene = world.scene;
     let mut path = Path::new(camera.ratio);
     let ray = Ray::new(camera.origin, camera.direction);
-    let mut flight = Flight::new(ray.o, ray, scene.camera_media);
+    let mut flight = Flight::new(ray.o, ray, scene.camera_media_along(&ray));
     let mut alpha = 0.0;
     let mut direct = None;
     let mut depth = 0;

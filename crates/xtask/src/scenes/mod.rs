@@ -1,7 +1,11 @@
 //! `cargo xtask scenes`: test scenes too big to commit, made from nothing and the same every time.
 
+mod contact_sheet;
+mod glassware;
 mod igs;
 mod instances;
+mod lampshade;
+mod lathe;
 mod moon;
 mod noise;
 mod ply;
@@ -42,7 +46,47 @@ const SCENES: &[Scene] = &[
         about: "15,000 models of two meshes in the spirals of a sunflower",
         parts: &[("instances.igs", instances::write_scene)],
     },
+    Scene {
+        name: "wineglass",
+        about: "red wine in a glass of 51,000 triangles, and the same glass empty",
+        parts: &[
+            ("wineglass.igs", |out| fill(WINE_GLASS, glassware::write_wine_glass, out)),
+            ("wineglass_empty.igs", |out| fill(WINE_GLASS, glassware::write_empty_glass, out)),
+        ],
+    },
+    Scene {
+        name: "drinks",
+        about: "milk, beer and red wine in three glasses",
+        parts: &[("drinks.igs", |out| fill(DRINKS, glassware::write_drinks, out))],
+    },
+    Scene {
+        name: "lampshade",
+        about: "a lamp under a shade of cloth",
+        parts: &[("lampshade.igs", |out| fill(LAMPSHADE, lampshade::write_meshes, out))],
+    },
+    Scene {
+        name: "libraries",
+        about: "contact sheets: a ball of each metal of nkdata, and of each medium of media",
+        parts: &[
+            ("metals.igs", |out| fill(METALS, contact_sheet::write_metals, out)),
+            ("media.igs", |out| fill(MEDIA, contact_sheet::write_media, out)),
+        ],
+    },
 ];
+
+const WINE_GLASS: &str = include_str!("../../data/scenes/wineglass.igs");
+const DRINKS: &str = include_str!("../../data/scenes/drinks.igs");
+const LAMPSHADE: &str = include_str!("../../data/scenes/lampshade.igs");
+const METALS: &str = include_str!("../../data/scenes/metals.igs");
+const MEDIA: &str = include_str!("../../data/scenes/media.igs");
+
+/// A scene whose last line but the closing tag are the elements that `write` makes.
+fn fill(template: &str, write: fn(&mut dyn Write) -> io::Result<()>, out: &mut dyn Write) -> io::Result<()> {
+    let head = template.trim_end().strip_suffix("</scene>").ok_or(io::ErrorKind::InvalidData)?;
+    out.write_all(head.as_bytes())?;
+    write(out)?;
+    igs::write_tail(out)
+}
 
 /// Writes one scene, or `all`.
 pub fn run(arguments: &[String]) -> Outcome {

@@ -101,7 +101,7 @@ fn trace_camera(
     let mut step = Step::from_camera(pdf, camera.ratio);
     let mut from = Receiver::all_round(camera.origin);
     let ray = Ray::new(camera.origin, camera.direction);
-    let mut flight = Flight::new(ray.o, ray, scene.camera_media);
+    let mut flight = Flight::new(ray.o, ray, scene.camera_media_along(&ray));
     let (mut alpha, mut depth, mut number) = (0.0, 0, 0);
     // By what roulette divides the throughput, so that it sees losses alone.
     let mut expected = camera.importance;

@@ -1,0 +1,231 @@
+//! Every element of materials, textures and media changes the picture in the direction that it is said to.
+//!
+//! Means are compared with margins that are many of their standard errors.
+
+use super::common::judge::{NITS_PER_UNIFORM, assert_near};
+use super::common::shapes::{Mesh, model};
+use super::common::text::{
+    background, basic, flat_camera, grey, henyey_greenstein, medium, scattering, scene_file, settings,
+    specular, uniform,
+};
+use super::common::{Measured, measure, scene, scene_with};
+use super::materials::{RADIANCE, point, sheet_with};
+use indigo_imaging::{LinearImage, Metadata, exr};
+use indigo_math::{Real, Vec3};
+use indigo_scatter::Mode;
+
+/// A sheet in even light shows just its albedo.
+#[test]
+fn albedos_are_what_their_elements_say() {
+    let spectrum = |v: f64| format!("<albedo_spectrum>{}</albedo_spectrum>", uniform(v));
+    let texture = |more: &str| format!("<albedo_texture><path>half.exr</path>{more}</albedo_texture>");
+    let linear = |more: &str| texture(&format!("<exponent>1</exponent>{more}"));
+    let colour = "<colour>0.5 0.5 0.5</colour>".to_owned();
+    let kinds: [(&str, &str); 3] =
+        [("diffuse", ""), ("diffuse_transmitter", ""), ("oren_nayar", "<sigma>0</sigma>")];
+    for (kind, more) in kinds {
+        let mut rows = vec![
+            ("albedo_spectrum", spectrum(0.3), 0.3),
+            ("a higher one", spectrum(0.6), 0.6),
+            ("more than all", spectrum(3.0), 1.0),
+            ("a map", linear(""), 0.5),
+            ("a map before a spectrum", spectrum(0.9) + &linear(""), 0.5),
+            ("the exponent", texture("<exponent>2</exponent>"), 0.25),
+            ("the exponent by default", texture(""), 0.5f64.powf(2.2)),
+            ("a", linear("<a>1</a><b>0</b>"), 0.25),
+            ("b", linear("<b>0.4</b>"), 0.2),
+            ("c", linear("<c>0.1</c>"), 0.6),
+            ("all three", linear("<a>0.4</a><b>0.2</b><c>0.1</c>"), 0.3),
+        ];
+        if kind != "oren_nayar" {
+            rows.push(("colour", colour.clone(), 0.5f64.powf(2.2)));
+            rows.push(("a bright colour", "<colour>1 1 1</colour>".to_owned(), 0.9));
+            rows.push(("a spectrum before a colour", spectrum(0.3) + &colour, 0.3));
+        }
+        for (what, content, expected) in rows {
+            let scene = sheet_with(&format!("<{kind}>{more}{content}</{kind}>"), 30.0, "", "");
+            let measured = measure(&scene, 16, 96);
+            let expected = expected * RADIANCE * NITS_PER_UNIFORM;
+            assert_near(&format!("{kind}, {what}"), measured.luminance(), expected, 4e-3);
+        }
+    }
+}
+
+/// `uv_set` chooses among the coordinates that a mesh exposes: here one of them has the map's dark half.
+#[test]
+fn a_texture_is_looked_up_by_its_uv_set() {
+    let shown = |set: &str| {
+        let map = format!(
+            "<material><name>m</name><diffuse><albedo_texture>{set}<path>two.exr</path><exponent>1</exponent></albedo_texture>\
+             </diffuse></material>"
+        );
+        let vertex = |x: i32, y: i32| format!("<vertex pos=\"{x} {y} 0\" uv0=\"0.2 0.5\" uv1=\"0.8 0.5\"/>");
+        let vertices: String = [(-1, -1), (1, -1), (1, 1), (-1, 1)].map(|(x, y)| vertex(x, y)).concat();
+        let expose = |i: u32, name: &str| {
+            format!("<expose_uv_set><index>{i}</index><name>{name}</name></expose_uv_set>")
+        };
+        let text = scene_file(&[
+            settings(4, ""),
+            flat_camera([0.0, 0.0, 5.0], [0.0, 0.0, -1.0], 1e-3),
+            map,
+            format!(
+                "<mesh><name>sheet</name><embedded>{}{}{vertices}<triangle_set><material_name>m</material_name>\
+                 <tri>0 1 2</tri><tri>0 2 3</tri></triangle_set></embedded></mesh>",
+                expose(0, "default"),
+                expose(1, "other")
+            ),
+            model("sheet"),
+            background(&uniform(RADIANCE)),
+        ]);
+        let pixels = (0..16).map(|i| if i < 8 { 0.2f32 } else { 0.7 }).map(|v| [v, v, v, 1.0]).collect();
+        let image = LinearImage { width: 16, height: 1, pixels };
+        let two = exr::encode(&image, &Metadata::default()).expect("a picture");
+        measure(&scene_with(&text, [("two.exr", two)]), 16, 96)
+    };
+    for (set, expected) in [("", 0.2), ("<uv_set>default</uv_set>", 0.2), ("<uv_set>other</uv_set>", 0.7)] {
+        let expected = expected * RADIANCE * NITS_PER_UNIFORM;
+        assert_near(set, shown(set).luminance(), expected, 4e-3);
+    }
+}
+
+/// Rough clay sends light back to where it came from.
+#[test]
+fn sigma_roughens() {
+    let back = |sigma: f64| {
+        let kind = format!(
+            "<oren_nayar><sigma>{sigma}</sigma><albedo_spectrum>{}</albedo_spectrum></oren_nayar>",
+            uniform(0.6)
+        );
+        let (sin, cos) = 60f64.to_radians().sin_cos();
+        let scene = sheet_with(&kind, 60.0, "", "");
+        let wi = Vec3::new(sin as Real, 0.0, cos as Real);
+        point(&scene, 60.0, 550.0).eval(wi, Mode::Radiance).f_cos.hero() as f64
+    };
+    assert!(back(0.3) > 1.1 * back(0.0) && back(0.8) > 1.1 * back(0.3));
+}
+
+/// A lamp in the direction in which a surface that leans by its bump map would mirror the view: seen from straight
+/// above, all kinds are brighter with the map than without it.
+#[test]
+fn every_kind_of_surface_is_bent_by_its_bump_map() {
+    let dark = medium("dark", 10, &basic(1.5, &uniform(1e9), ""));
+    let albedo = format!("<albedo_spectrum>{}</albedo_spectrum>", uniform(0.5));
+    let ground = format!("<diffuse_albedo_spectrum>{}</diffuse_albedo_spectrum>", uniform(0.0));
+    let inside = "<internal_medium_name>dark</internal_medium_name>";
+    for (name, content, gain) in [
+        ("diffuse", albedo.clone(), 1.04),
+        ("oren_nayar", format!("<sigma>0.3</sigma>{albedo}"), 1.03),
+        ("phong", format!("<ior>1.5</ior><exponent>300</exponent>{ground}"), 10.0),
+        ("specular", format!("<transparent>true</transparent>{inside}"), 10.0),
+        ("glossy_transparent", format!("<exponent>300</exponent>{inside}"), 10.0),
+    ] {
+        let lit = |bump: &str| {
+            // The ramp rises by 0.4 over its two metres along x, a slope of 0.2: 11.3 degrees, twice that for light.
+            let angle = 2.0 * 0.2f64.atan();
+            let lamp = format!(
+                "<rectanglelight><pos>{} 0 {}</pos><width>2</width><height>2</height><spectrum>{}</spectrum></rectanglelight>",
+                -20.0 * angle.sin(),
+                20.0 * angle.cos(),
+                uniform(1e9)
+            );
+            let others = format!("{dark}{lamp}");
+            let scene = sheet_with(&format!("<{name}>{content}{bump}</{name}>"), 0.0, "", &others);
+            measure(&scene, 8, 64).luminance().mean()
+        };
+        let bump = "<bump_map><path>ramp.exr</path><exponent>1</exponent><b>0.4</b></bump_map>";
+        let (plain, bent) = (lit(""), lit(bump));
+        assert!(bent > gain * plain, "{name}: {plain} and {bent}");
+    }
+}
+
+/// A thick slab of a medium seen along its normal in even light.
+fn slab(medium: &str) -> Measured {
+    let slab = Mesh::cube(1.0).placed([2.0, 0.0, 0.0, 0.0, 0.05, 0.0, 0.0, 0.0, 2.0], 1.0, [0.0, 0.05, 0.0]);
+    let scene = scene(&scene_file(&[
+        settings(8, ""),
+        flat_camera([0.0, -1.0, 0.0], [0.0, 1.0, 0.0], 1e-3),
+        background(&uniform(RADIANCE)),
+        medium.to_owned(),
+        specular("surface", "m"),
+        slab.text("slab", "surface"),
+        model("slab"),
+    ]));
+    measure(&scene, 8, 64)
+}
+
+/// That each is brighter than the one before by a margin that no scatter makes up.
+#[track_caller]
+fn assert_rising(what: &str, values: &[&Measured]) {
+    for pair in values.windows(2) {
+        let [a, b] = [pair[0].luminance(), pair[1].luminance()];
+        let scatter = (a.variance_of_mean() + b.variance_of_mean()).sqrt();
+        assert!(b.mean() - a.mean() > 6.0 * scatter, "{what}: {} then {}, ±{scatter}", a.mean(), b.mean());
+    }
+}
+
+#[test]
+fn every_element_of_a_basic_medium_has_its_effect() {
+    let of = |ior: f64, absorption: f64, more: &str| {
+        slab(&medium("m", 10, &basic(ior, &uniform(absorption), more)))
+    };
+    let scatters = |coefficient: f64, phase: &str| scattering(&uniform(coefficient), phase);
+    let forward = henyey_greenstein(0.9);
+    let backward = henyey_greenstein(-0.5);
+    // What absorbs more is darker, what scatters more is brighter, and so is a surface that reflects more.
+    assert_rising("absorption", &[&of(1.0, 30.0, ""), &of(1.0, 10.0, ""), &of(1.0, 3.0, "")]);
+    let phase = "<uniform></uniform>";
+    assert_rising(
+        "scattering",
+        &[
+            &of(1.0, 30.0, ""),
+            &of(1.0, 30.0, &scatters(30.0, phase)),
+            &of(1.0, 30.0, &scatters(300.0, phase)),
+        ],
+    );
+    assert_rising("ior", &[&of(1.0, 1e3, ""), &of(1.5, 1e3, ""), &of(2.0, 1e3, "")]);
+    let [forward, even, backward] =
+        [&*forward, phase, &*backward].map(|phase| of(1.0, 30.0, &scatters(100.0, phase)));
+    assert_rising("g", &[&forward, &even, &backward]);
+}
+
+#[test]
+fn every_element_of_skin_has_its_effect() {
+    let epidermis = |melanin: f64, eumelanin: f64| {
+        slab(&medium(
+            "m",
+            10,
+            &format!(
+                "<epidermis><melanin_fraction>{melanin}</melanin_fraction><melanin_type_blend>{eumelanin}</melanin_type_blend></epidermis>"
+            ),
+        ))
+    };
+    let dermis = |blood: f64| {
+        slab(&medium(
+            "m",
+            10,
+            &format!("<dermis><hemoglobin_fraction>{blood}</hemoglobin_fraction></dermis>"),
+        ))
+    };
+    // Red over blue: X over Z.
+    let redness = |m: &Measured| m.xyza[0].mean() / m.xyza[2].mean();
+    let [dark, medium, fair] = [0.5, 0.1, 0.01].map(|melanin| epidermis(melanin, 0.5));
+    assert_rising("melanin", &[&dark, &medium, &fair]);
+    let [brown, reddish] = [1.0, 0.0].map(|eumelanin| epidermis(0.05, eumelanin));
+    assert_rising("eumelanin", &[&brown, &reddish]);
+    assert!(redness(&reddish) > 1.05 * redness(&brown));
+    let [full, little] = [0.1, 0.002].map(dermis);
+    assert_rising("haemoglobin", &[&full, &little]);
+    assert!(redness(&full) > 1.2 * redness(&little), "blood is red");
+}
+
+/// The index inside counts for rough glass, too.
+#[test]
+fn rough_glass_reflects_by_the_index_of_its_medium() {
+    let shown = |ior: f64| {
+        let dark = medium("dark", 10, &basic(ior, &uniform(1e9), "")) + &grey("unused", 0.5);
+        let kind = "<glossy_transparent><internal_medium_name>dark</internal_medium_name><exponent>50</exponent>\
+                    </glossy_transparent>";
+        measure(&sheet_with(kind, 20.0, "", &dark), 8, 64)
+    };
+    assert_rising("index", &[&shown(1.1), &shown(1.5), &shown(2.4)]);
+}
