@@ -11,5 +11,5 @@ mod suggest;
 
 pub use render::{Style, summary_to_json, to_json, to_text};
 pub use sink::{Diagnostic, Severity, Sink};
-pub use source::{Position, SourceId, SourceMap, Span, Spanned};
+pub use source::{Excerpt, Position, SourceId, SourceMap, Span, Spanned};
 pub use suggest::{Candidates, nearest};

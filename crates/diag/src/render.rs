@@ -1,5 +1,6 @@
 //! Diagnostics as text for people and as JSON for programs.
 
+use crate::source::{Excerpt, is_hidden};
 use crate::{Diagnostic, Severity, Sink, SourceMap, Span};
 use std::borrow::Cow;
 use std::fmt::Write as _;
@@ -64,19 +65,10 @@ fn excerpt(
     (colour, dim, off): (&str, &str, &str),
 ) {
     let number = sources.position(span).line;
-    let (line, marked) = sources.line(span);
-    let chars: Vec<char> = line.chars().map(|c| if c == '\t' || c.is_control() { ' ' } else { c }).collect();
-    let first = if marked.start > LINE_WINDOW * 3 / 4 { marked.start - LINE_WINDOW / 2 } else { 0 };
-    let last = chars.len().min(first + LINE_WINDOW);
-    let shown: String = chars.get(first..last).unwrap_or_default().iter().collect();
-    let carets = marked.len().clamp(1, LINE_WINDOW.saturating_sub(marked.start - first).max(1));
-    let _ = writeln!(out, "{dim}{number:>5} |{off} {}", shown.trim_end());
-    let _ = write!(
-        out,
-        "{dim}      |{off} {}{colour}{}{off}",
-        " ".repeat(marked.start - first),
-        "^".repeat(carets)
-    );
+    let Excerpt { text, marked } = sources.excerpt(span, LINE_WINDOW);
+    let carets = marked.len().clamp(1, LINE_WINDOW.saturating_sub(marked.start).max(1));
+    let _ = writeln!(out, "{dim}{number:>5} |{off} {}", text.trim_end());
+    let _ = write!(out, "{dim}      |{off} {}{colour}{}{off}", " ".repeat(marked.start), "^".repeat(carets));
     match &diagnostic.label {
         Some(label) => {
             let _ = writeln!(out, " {colour}{}{off}", shortened(label));
@@ -109,8 +101,13 @@ const LONGEST: usize = 500;
 /// What is shown of the beginning of a longer one; as much of its end.
 const SHOWN: usize = 200;
 
-/// A text without its middle if it is very long.
+/// A text without its middle if it is very long, and without what a terminal would act on: names come from files.
 fn shortened(text: &str) -> Cow<'_, str> {
+    if text.contains(|c| is_hidden(c) && c != '\n') {
+        let shown: String =
+            text.chars().map(|c| if is_hidden(c) && c != '\n' { '\u{fffd}' } else { c }).collect();
+        return shortened(&shown).into_owned().into();
+    }
     let length = text.chars().count();
     if length <= LONGEST {
         return text.into();

@@ -31,7 +31,7 @@ fn closest<'a, W: AsRef<[char]>>(
     let limit = (word.len() / 3).clamp(1, 4);
     candidates
         // Each letter more or less is a step of the distance.
-        .filter(|(c, _)| c.as_ref().len().abs_diff(word.len()) <= limit)
+        .filter(|(c, _)| !c.as_ref().is_empty() && c.as_ref().len().abs_diff(word.len()) <= limit)
         .map(|(c, written)| (distance(word, c.as_ref()), written))
         .filter(|&(d, _)| d <= limit)
         .min_by_key(|&(d, _)| d)

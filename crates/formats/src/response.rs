@@ -68,6 +68,10 @@ fn read_curve(text: &mut Text<'_>) -> Result<ResponseCurve, FormatError> {
             return Err(text.error("'I =' and the irradiances of a curve"));
         }
         let word = text.word();
+        if word.is_empty() {
+            // A control character or a continued line, at which a word ends and no space begins.
+            return Err(text.error("the name of a curve, 'graph', or 'I ='"));
+        }
         if !word.to_ascii_lowercase().starts_with(b"graph") {
             words.push(name(word));
         }
@@ -168,6 +172,8 @@ mod tests {
             ("a\nI = 0.5 0.5\nB = 0 1", "3:1: expected as many"),
             ("a\nI = 0 nan", "2:7: expected"),
             ("a\nI = 0 1e", "2:7: expected"),
+            ("a\n\u{1}\n", "2:1: expected the name"),
+            ("a \\\n graph", "1:3: expected the name"),
         ] {
             let error = read(text.as_bytes()).unwrap_err().to_string();
             assert!(error.starts_with(says), "{text:?}: {error}");

@@ -82,6 +82,9 @@ fn refuse_negative(node: &Node, what: &str, sink: &mut Sink) {
     }
 }
 
+/// No table of visible light begins beyond a millimetre; one in nanometres or micrometres does.
+const LONGEST: f64 = 1e-3;
+
 fn build(node: &Node, purpose: Use, sink: &mut Sink) -> Spectrum {
     match node.block.name {
         "uniform" => Spectrum::uniform(node.real("value")),
@@ -119,6 +122,16 @@ fn table(node: &Node, sink: &mut Sink) -> Spectrum {
         );
     }
     let (start, end) = (node.real("start_wavelength"), node.real("end_wavelength"));
+    if start > LONGEST {
+        sink.push(
+            Diagnostic::warning(
+                codes::SUSPECT_UNIT,
+                node.span_of("start_wavelength"),
+                "the table lies far outside of visible light: its wavelengths are in metres",
+            )
+            .hint(format!("did you mean {}?", start * 1e-9)),
+        );
+    }
     match Spectrum::regular_tabulated(start, end, &values.value) {
         Ok(spectrum) => spectrum,
         Err(error) => {

@@ -144,12 +144,12 @@ pub(super) fn settings_without_camera(settings: &Settings) {
 
 /// The aperture with what stands before it, which matters to diffraction alone.
 fn pupil(node: &Node, aperture: &Aperture, diffraction: Diffraction, context: &mut Context) -> Pupil {
+    let map = node.opt_text("obstacle_map");
+    // Looked at even where it does nothing: its faults are not to come up when diffraction is switched on.
+    let obstacles = map.as_ref().and_then(|path| aperture::obstacles(&path.value, path.span, context));
     if diffraction == Diffraction::Off {
-        node.disregard_field("obstacle_map");
         return Pupil::new(aperture.clone(), None);
     }
-    let map = node.opt_text("obstacle_map");
-    let obstacles = map.as_ref().and_then(|path| aperture::obstacles(&path.value, path.span, context));
     let pupil = Pupil::new(aperture.clone(), obstacles);
     if let Some(path) = map.filter(|_| pupil.is_dark()) {
         context.sink.push(

@@ -82,8 +82,13 @@ impl Lights {
             first = first.or(Some(node.span));
             let transform = placement::transform(node, context.sink);
             let name = node.text("mesh_name");
-            let Some(mesh) = meshes.get(&name.value, name.span, context).map(|m| m.id) else { continue };
-            let object = geometry.to_render_space(Object::Mesh { mesh, transform });
+            let Some((mesh, reach)) = meshes.get(&name.value, name.span, context).map(|m| (m.id, m.reach))
+            else {
+                continue;
+            };
+            let object = Object::Mesh { mesh, transform };
+            geometry.refuse_far(&object, reach, node.span, context.sink);
+            let object = geometry.to_render_space(object);
             self.portals.extend(Shape::new(&object, meshes.triangles(mesh)).fronts());
         }
         let Some(span) = first.filter(|_| self.distant.is_empty()) else { return };

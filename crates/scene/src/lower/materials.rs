@@ -5,8 +5,8 @@ use super::media::MediumTable;
 use super::names::Names;
 use super::textures::TextureTable;
 use crate::codes;
-use indigo_decl::Node;
-use indigo_diag::{Diagnostic, Sink, Span};
+use indigo_decl::{Kind, Node};
+use indigo_diag::{Diagnostic, Sink, Span, Spanned};
 use indigo_formats::nk;
 use indigo_scatter::materials::blend;
 use indigo_scatter::{Material, MaterialId, MaterialResources, Medium, MediumId};
@@ -100,16 +100,7 @@ impl<'a> MaterialTable<'a> {
     /// Whether a material may be begun: not within itself, nor too deep in others.
     fn may_open(&self, name: &str, span: Span, sink: &mut Sink) -> bool {
         if let Some(first) = self.open.iter().position(|open| open == name) {
-            let mut round = self.open[first..].to_vec();
-            round.push(name.to_owned());
-            sink.push(
-                Diagnostic::error(
-                    codes::BLEND_CYCLE,
-                    span,
-                    format!("material {name} is made of itself: {}", round.join(", then ")),
-                )
-                .expected("expected a material that is made of others"),
-            );
+            sink.push(made_of_itself(name, span, self.open[first..].iter()));
             return false;
         }
         if self.open.len() >= blend::MAX_DEPTH as usize {
@@ -159,6 +150,46 @@ impl<'a> MaterialTable<'a> {
         let id = self.add(Material::black());
         self.black = Some(id);
         id
+    }
+
+    /// Reports materials that nothing uses and that are made of themselves. Those in use were found when built.
+    pub(super) fn check_unused(&self, sink: &mut Sink) {
+        let mut done: HashSet<String> = self.asked_for.clone();
+        let mut nodes: Vec<&Node> = self.names.nodes().collect();
+        nodes.sort_by_key(|n| (n.span.source, n.span.start));
+        for node in nodes {
+            self.check_round(&node.text("name").value, &mut done, sink);
+        }
+    }
+
+    /// Walks down what a material is made of, each material once, and reports the names that lead back up.
+    fn check_round(&self, first: &str, done: &mut HashSet<String>, sink: &mut Sink) {
+        // The materials above, and what is left to be looked at of each. A list of our own: a chain of blends can
+        // be longer than the thread's stack.
+        let mut open: Vec<(String, Vec<Spanned<String>>)> = vec![];
+        let mut above: HashSet<String> = HashSet::new();
+        let mut next = Some(first.to_owned());
+        loop {
+            if let Some(name) = next.take()
+                && done.insert(name.clone())
+            {
+                let parts = self.names.get(&name).map(constituents).unwrap_or_default();
+                above.insert(name.clone());
+                open.push((name, parts));
+            }
+            let Some((name, parts)) = open.last_mut() else { return };
+            match parts.pop() {
+                None => {
+                    above.remove(name.as_str());
+                    open.pop();
+                }
+                Some(part) if above.contains(&part.value) => {
+                    let round = open.iter().map(|(name, _)| name).skip_while(|name| **name != part.value);
+                    sink.push(made_of_itself(&part.value, part.span, round));
+                }
+                Some(part) => next = Some(part.value),
+            }
+        }
     }
 
     /// Materials that nothing is made of, and media that none of them names, have no effect, whatever
@@ -230,6 +261,22 @@ impl MaterialResources for Resources<'_, '_, '_, '_, '_> {
     fn sink(&mut self) -> &mut Sink {
         self.context.sink
     }
+}
+
+/// The materials that a material is made of.
+fn constituents(node: &Node) -> Vec<Spanned<String>> {
+    let Some(kind) = node.alternative() else { return vec![] };
+    let parts = kind.block.fields.iter().filter(|f| matches!(f.kind, Kind::Reference("material")));
+    parts.filter_map(|f| kind.opt_text(f.name)).collect()
+}
+
+/// The error of a material that leads back to itself by way of `round`, which begins with it.
+fn made_of_itself<'n>(name: &str, span: Span, round: impl Iterator<Item = &'n String>) -> Diagnostic {
+    let mut round: Vec<&str> = round.map(String::as_str).collect();
+    round.push(name);
+    let message = format!("material {name} is made of itself: {}", round.join(", then "));
+    Diagnostic::error(codes::BLEND_CYCLE, span, message)
+        .expected("expected a material that is made of others")
 }
 
 /// n and k at every nanometre of the visible range.

@@ -42,6 +42,9 @@ impl<'a> MediumTable<'a> {
 
     /// The medium of a name; air after reporting that there is none.
     pub(super) fn get(&mut self, name: &str, span: Span, sink: &mut Sink) -> MediumId {
+        if self.is_air(name) {
+            return MediumId::AIR;
+        }
         let Some(node) = self.names.find(name, span, sink) else { return MediumId::AIR };
         let Some(&id) = self.ids.get(name) else { return MediumId::AIR };
         let i = id.index();
@@ -57,7 +60,14 @@ impl<'a> MediumTable<'a> {
 
     /// Reports a name that no medium has.
     pub(super) fn check_name(&mut self, name: &str, span: Span, sink: &mut Sink) {
-        self.names.find(name, span, sink);
+        if !self.is_air(name) {
+            self.names.find(name, span, sink);
+        }
+    }
+
+    /// Whether a name is that of the medium that every scene has, unless the scene defines its own.
+    fn is_air(&self, name: &str) -> bool {
+        name == "air" && !self.ids.contains_key(name)
     }
 
     /// Media that no material asked for have no effect, whatever they hold.

@@ -131,6 +131,7 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
         "medium" => materials.check_medium(name, span, context.sink),
         _ => materials.check_name(name, span, context.sink),
     });
+    materials.check_unused(context.sink);
     meshes.disregard_unused();
     materials.disregard_unused();
 

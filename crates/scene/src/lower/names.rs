@@ -39,7 +39,7 @@ impl<'a> Names<'a> {
 
     /// The element of a name; `None` after reporting that there is none.
     pub(super) fn find(&mut self, name: &str, span: Span, sink: &mut Sink) -> Option<&'a Node> {
-        let found = self.by_name.get(name).copied();
+        let found = self.get(name);
         if found.is_none() && !name.is_empty() && self.missed.insert(name.to_owned()) {
             let message = format!("there is no {} named {name}", self.what);
             let mut d = Diagnostic::error(codes::UNKNOWN_NAME, span, message)
@@ -61,6 +61,11 @@ impl<'a> Names<'a> {
             Candidates::new(known)
         });
         candidates.nearest(name).map(|n| format!("did you mean {n}?"))
+    }
+
+    /// The element of a name, if there is one; nothing is reported.
+    pub(super) fn get(&self, name: &str) -> Option<&'a Node> {
+        self.by_name.get(name).copied()
     }
 
     /// All elements.

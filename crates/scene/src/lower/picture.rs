@@ -22,9 +22,28 @@ pub(super) fn film(settings: &Settings, sink: &mut Sink) -> Option<FilmSettings>
     let dimension = |field: &str| u32::try_from(settings.int(field).value).unwrap_or(u32::MAX);
     let (width, height) = (dimension("width"), dimension("height"));
     let filter = filter(settings, "splat_filter", sink);
-    let size = FilmSize::new(width, height, dimension("super_sample_factor"))
-        .map_err(|e| {
-            sink.push(Diagnostic::error(codes::PICTURE_SIZE, settings.span_of("width"), e.to_string()));
+    let factor = dimension("super_sample_factor");
+    let size = FilmSize::new(width, height, factor)
+        .map_err(|_| {
+            // Of the three the one that is to blame, as far as one is.
+            let blamed = match (FilmSize::new(width, height, 1), width >= height) {
+                (Ok(_), _) => "super_sample_factor",
+                (Err(_), true) => "width",
+                (Err(_), false) => "height",
+            };
+            let [w, h, s] = ["width", "height", "super_sample_factor"].map(|f| settings.int(f).value);
+            sink.push(
+                Diagnostic::error(
+                    codes::PICTURE_SIZE,
+                    settings.span_of(blamed),
+                    format!("a picture of {w} x {h} pixels, super-sampled {s} times, is too large"),
+                )
+                .expected(format!(
+                    "expected at most {} pixels a side and {} in all, each side times {s}",
+                    FilmSize::MAX_SIDE,
+                    FilmSize::MAX_PIXELS
+                )),
+            );
         })
         .ok()?;
     let region =
@@ -119,7 +138,7 @@ pub(super) fn picture(
     let white = camera.text("white_balance");
     let Some(xy) = illuminant::white_point(&white.value) else {
         sink.push(
-            Diagnostic::error(codes::UNKNOWN_WHITE, white.span, format!("{} is not a white", white.value))
+            Diagnostic::error(codes::UNKNOWN_WHITE, white.span, format!("'{}' is not a white", white.value))
                 .expected("expected A, B, C, D50, D55, D65, D75, E, F1 to F12, or a chromaticity x y"),
         );
         return None;

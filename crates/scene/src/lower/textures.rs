@@ -54,7 +54,9 @@ impl TextureTable {
         if let Some(file) = self.found.get(&named) {
             return file.clone();
         }
-        let (file, image) = match context.read(path, span) {
+        // An empty path is that of an element without one, which was reported.
+        let read = if path.is_empty() { None } else { context.read(path, span) };
+        let (file, image) = match read {
             Some(found) if self.images.contains_key(&found.path) => (found.path, None),
             Some(found) => {
                 let image = decode(&found.path, &found.bytes, span, context);

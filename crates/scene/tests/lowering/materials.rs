@@ -39,6 +39,9 @@ fn blends_of_what_cannot_be_blended() {
     let round =
         line(&[material("m", &blend("n", "white")), material("n", &blend("white", "m")), sphere_of("m")]);
     expect_one(&round, "m</b_name>", "E0312");
+    // Also where nothing uses them.
+    let unused = line(&[material("m", &blend("n", "white")), material("n", &blend("white", "m"))]);
+    expect_one(&unused, "m</b_name>", "E0312");
     // Two of delta kind, at any depth.
     let two = line(&[
         null.clone(),

@@ -93,7 +93,8 @@ fn a_bad_command_line_value_has_a_place_too() {
     let loaded = load("scene.igs", &LoadOptions { overrides: &overrides, ..options(&memory) });
     let d = &loaded.sink.diagnostics()[0];
     assert_eq!((d.code, loaded.sources.name(d.span.unwrap().source)), ("E0202", "command line"));
-    assert_eq!(loaded.sources.line(d.span.unwrap()), ("-halt soon ".to_owned(), 6..10));
+    let excerpt = loaded.sources.excerpt(d.span.unwrap(), 80);
+    assert_eq!((excerpt.text.as_str(), excerpt.marked), ("-halt soon ", 6..10));
     assert!(loaded.scene.is_none());
 }
 
