@@ -51,7 +51,7 @@ codes! {
     /// A known element of old exporters that has no meaning any more.
     IGNORED_ELEMENT = "W0107", "<renderer_settings><strata_width>8</strata_width></renderer_settings>";
     /// A number that is likely to be meant in another unit.
-    SUSPECT_UNIT = "W0108", "<background><spectrum><regular_tabulated><start_wavelength>400</start_wavelength><end_wavelength>700</end_wavelength><num_values>2</num_values><values>1 1</values></regular_tabulated></spectrum></background>";
+    SUSPECT_UNIT = "W0108", "(a `regular_tabulated` whose wavelengths are in nanometres)";
     /// A required element is missing.
     MISSING_ELEMENT = "E0201", "<mesh><name>hand</name></mesh>";
     /// The text of an element is not of its type.

@@ -74,8 +74,8 @@ pub(crate) fn sphere_box(center: Vec3d, radius: f64) -> Box3 {
     outward(&Bounds3 { lo: center - r, hi: center + r })
 }
 
-/// To single precision, away from the inside. The margin covers the rounding of a ray that is taken
-/// into an instance's own space.
+/// To single precision, away from the inside. The margin covers the rounding of a ray that is taken into an instance's
+/// own space, where its mesh lies about as far from the origin as it does here.
 fn outward(b: &Bounds3<f64>) -> Box3 {
     let margin = |v: f64| v.abs() * 4.0 * f64::from(f32::EPSILON) + f64::from(f32::MIN_POSITIVE);
     Box3 {

@@ -122,9 +122,14 @@ impl AreaLight {
         let weights: Vec<f64> = self.areas.iter().enumerate().map(|(i, area)| area * weight(i)).collect();
         let sum: f64 = weights.iter().sum();
         self.choice = AliasTable::new(&weights);
-        // Where all weights are 0 the table is even; triangles without area are never met.
+        // Where all weights are 0 the table is even. What has no area is not drawn; should a ray meet it all the same
+        // (trees judge areas in single precision), its density is 0.
         let share = |w: f64| if sum > 0.0 { w / sum } else { 1.0 / weights.len() as f64 };
-        self.density = weights.iter().zip(&self.areas).map(|(&w, area)| (share(w) / area) as Real).collect();
+        self.density = weights
+            .iter()
+            .zip(&self.areas)
+            .map(|(&w, &area)| if area > 0.0 { (share(w) / area) as Real } else { 0.0 })
+            .collect();
     }
 
     /// Radiance without map and profile, W m^-3 sr^-1.

@@ -157,7 +157,8 @@ impl<L: Lanes> BoxTest<L> {
     #[inline(always)]
     fn new(ray: &KernelRay<L::Scalar>) -> Self {
         // 1 / 0 is infinite on purpose: a slab is then entered at ±∞ or, where the origin lies on
-        // one of its planes, at NaN, which min and max below ignore (the slab does not bound the ray).
+        // one of its planes, at NaN: min and max below then drop that slab, and the one before it, so that the ray
+        // is bounded by fewer slabs than it could be, never by more.
         let inverse = ray.d.map(|d| L::Scalar::ONE / d);
         Self {
             origin: ray.o.map(L::splat),

@@ -25,9 +25,9 @@ fn assert_luminance(what: &str, measured: &Measured, over_emitted: f64) {
 }
 
 #[test]
-fn a_grey_box_of_albedo_one_half_is_twice_as_bright_as_its_walls_emit() {
-    let measured = measure(&room(&Mesh::cube(1.0), 0.5, ""), 16, 208);
-    assert_luminance("box, albedo 0.5", &measured, 1.0 / (1.0 - 0.5));
+fn a_ball_of_albedo_one_half_is_twice_as_bright_as_its_walls_emit() {
+    let measured = measure(&room(&Mesh::ball(2), 0.5, ""), 16, 208);
+    assert_luminance("ball, albedo 0.5", &measured, 1.0 / (1.0 - 0.5));
 }
 
 #[test]

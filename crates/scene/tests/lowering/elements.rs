@@ -117,6 +117,21 @@ fn apertures() {
 }
 
 #[test]
+fn a_table_in_nanometres_is_suspect() {
+    let table = |start: &str, end: &str| {
+        format!(
+            "<rectanglelight><pos>0 0 3</pos><width>1</width><height>1</height><spectrum><regular_tabulated>\
+             <start_wavelength>{start}</start_wavelength>\
+             <end_wavelength>{end}</end_wavelength><num_values>2</num_values><values>1 1</values>\
+             </regular_tabulated></spectrum></rectanglelight>{CAMERA}"
+        )
+    };
+    assert_eq!(found(&table("4e-7", "7e-7")), Vec::<String>::new());
+    let column = table("400", "700").find("400").unwrap() + 1;
+    assert_eq!(found(&table("400", "700")), [format!("{LINE}:{column}:W0108")]);
+}
+
+#[test]
 fn bloom_is_deprecated() {
     let camera =
         CAMERA.replace("</camera>", "<bloom><weight>0.1</weight><radius>0.1</radius></bloom></camera>");
