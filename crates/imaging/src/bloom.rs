@@ -20,18 +20,13 @@ impl Bloom {
         let Some(window) = Window::of(image.size, region) else { return };
         let longer = image.size.internal_width().max(image.size.internal_height());
         let plane = Plane::new(window.width, window.height);
-        let spectrum = plane.spectrum(&gaussian(&plane, self.radius * f64::from(longer)));
+        let sigma = self.radius * f64::from(longer);
+        let (columns, rows) = (profile(plane.columns, sigma), profile(plane.rows, sigma));
+        let [spectrum] =
+            plane.spectra(|x, y| [columns[x.unsigned_abs() as usize] * rows[y.unsigned_abs() as usize]]);
         let weight = self.weight as f32;
-        for c in 0..3 {
-            window.convolve(image, c, (&plane, &spectrum), |sharp, blurred| sharp + weight * blurred);
-        }
+        window.convolve(image, &plane, [&spectrum; 3], |sharp, blurred| sharp + weight * blurred);
     }
-}
-
-/// A normal distribution of a standard deviation in pixels over a plane, its middle at (0, 0).
-fn gaussian(plane: &Plane, sigma: f64) -> Vec<f64> {
-    let (columns, rows) = (profile(plane.columns, sigma), profile(plane.rows, sigma));
-    rows.iter().flat_map(|row| columns.iter().map(move |column| row * column)).collect()
 }
 
 /// A normal distribution over a period of pixels, its middle at 0; all of it there where sigma is 0.

@@ -39,18 +39,24 @@ impl Spread {
         }
         let wavelengths = wavelengths();
         let mut density = vec![[0.0; 3]; (radii.len() - 1) * SECTORS];
-        density.par_chunks_mut(SECTORS).zip(radii.par_windows(2)).for_each(|(ring, edges)| {
-            let middle = 0.5 * (edges[0] + edges[1]);
-            for &(lambda, weights) in &wavelengths {
-                let (row, factor) = field.at_radius(middle / lambda);
-                let weights = weights.map(|w| (w * factor / (lambda * lambda)) as f32);
-                for (out, &p) in ring.iter_mut().zip(row) {
-                    for (o, w) in out.iter_mut().zip(weights) {
-                        *o += w * p;
+        density.par_chunks_mut(SECTORS).zip(radii.par_windows(2)).for_each_init(
+            || vec![0.0f32; 3 * SECTORS],
+            |sums, (ring, edges)| {
+                // Component after component, as vector instructions want it.
+                sums.fill(0.0);
+                let middle = 0.5 * (edges[0] + edges[1]);
+                for &(lambda, weights) in &wavelengths {
+                    let (row, factor) = field.at_radius(middle / lambda);
+                    for (sums, weight) in sums.chunks_exact_mut(SECTORS).zip(weights) {
+                        let weight = (weight * factor / (lambda * lambda)) as f32;
+                        sums.iter_mut().zip(row).for_each(|(s, &p)| *s += weight * p);
                     }
                 }
-            }
-        });
+                for (j, out) in ring.iter_mut().enumerate() {
+                    *out = [sums[j], sums[SECTORS + j], sums[2 * SECTORS + j]];
+                }
+            },
+        );
         let mut spread = Self { radii, density, widths: field.sector_widths().to_vec() };
         spread.normalise(field, &wavelengths);
         spread
@@ -81,10 +87,10 @@ impl Spread {
     pub fn at(&self, [x, y]: [f64; 2], half_width: f64) -> [f64; 3] {
         // The opposite offset has the same density.
         let (x, y) = if x < 0.0 { (-x, -y) } else { (x, y) };
-        let radius = x.hypot(y);
+        let radius = (x * x + y * y).sqrt();
         let middle = |i: usize| 0.5 * (self.radii[i] + self.radii[i + 1]);
         let rings = self.radii.len() - 1;
-        let here = self.radii.partition_point(|&r| r <= radius).clamp(1, rings) - 1;
+        let here = self.ring_at(radius);
         let first = if radius < middle(here) { here.saturating_sub(1) } else { here.min(rings - 2) };
         let t = (radius - middle(first)) / (middle(first + 1) - middle(first));
         let place = sector_of(x, y);
@@ -93,6 +99,17 @@ impl Spread {
         let half = half_width * 0.5 * SECTORS as f64 / ((u + v) * (u + v));
         let (a, b) = (self.arc(first, place, half), self.arc(first + 1, place, half));
         std::array::from_fn(|c| a[c] + t * (b[c] - a[c]))
+    }
+
+    /// The ring that a distance falls into; the last one for all beyond.
+    fn ring_at(&self, radius: f64) -> usize {
+        let core = CORE_RINGS as f64 * CORE_WIDTH;
+        let place = if radius < core {
+            radius / CORE_WIDTH
+        } else {
+            CORE_RINGS as f64 + (radius / core).ln() / GROWTH.ln_1p()
+        };
+        (place as usize).min(self.radii.len() - 2)
     }
 
     /// The mean over sectors round a place of a ring.

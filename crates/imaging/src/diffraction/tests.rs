@@ -1,12 +1,12 @@
 //! The picture of a lamp behind an aperture, against theory.
 
-use super::{Diffraction, kernels};
+use super::{Diffraction, Kernel};
 use crate::Region;
-use crate::convolution::Plane;
+use crate::convolution::Window;
 use indigo_camera::{Aperture, Blades, FarField, Pupil};
 use indigo_film::{FilmSize, XyzImage};
 use indigo_spectrum::observer::cmf;
-use std::sync::LazyLock;
+use std::sync::{Arc, LazyLock};
 
 static CIRCLE: LazyLock<FarField> = LazyLock::new(|| far_field(Aperture::Circular));
 
@@ -21,17 +21,10 @@ fn blades(count: i64, start_angle: f64) -> FarField {
 /// What a lamp of one pixel looks like: offsets up to `reach` pixels, x to the right and y up, with X, Y and
 /// Z. A cycle at 550 nm is so many pixels wide.
 fn kernel(field: &FarField, pixels_per_cycle: f64, reach: usize) -> Vec<([f64; 2], [f64; 3])> {
-    let plane = Plane::new(reach + 1, reach + 1);
-    let kernels = kernels(field, &plane, [pixels_per_cycle / 550.0; 2]);
-    let wrapped = |v: i64, n: usize| v.rem_euclid(n as i64) as usize;
+    let kernel = Kernel::new(field, [reach + 1; 2], [pixels_per_cycle / 550.0; 2]);
     let reach = reach as i64;
     let offsets = (-reach..=reach).flat_map(|y| (-reach..=reach).map(move |x| (x, y)));
-    offsets
-        .map(|(x, y)| {
-            let at = wrapped(-y, plane.rows) * plane.columns + wrapped(x, plane.columns);
-            ([x as f64, y as f64], [0, 1, 2].map(|c| kernels[c][at]))
-        })
-        .collect()
+    offsets.map(|(x, y)| ([x as f64, y as f64], kernel.at(x, -y))).collect()
 }
 
 /// Bessel's function of order n by its integral, (1/π) ∫ cos(n t - x sin t) dt over [0, π]; the
@@ -188,4 +181,20 @@ fn only_the_region_is_touched() {
         }
     }
     assert!(changed > 900, "{changed}");
+}
+
+/// Kernels of the two sizes used last are made once.
+#[test]
+fn two_sizes_are_held() {
+    let diffraction = Diffraction::new(Pupil::new(Aperture::Circular, None), [2e-4, 2e-4]);
+    let prepared = |side: u32| {
+        let size = FilmSize::new(side, side, 1).unwrap();
+        let window = Window::of(size, Region::whole(size)).unwrap();
+        diffraction.prepared(window, [side, side]).unwrap()
+    };
+    let [a, b] = [8, 12].map(prepared);
+    assert!(Arc::ptr_eq(&a, &prepared(8)) && Arc::ptr_eq(&b, &prepared(12)));
+    assert_eq!((a.plane.width, b.plane.width), (8, 12));
+    prepared(16);
+    assert!(Arc::ptr_eq(&b, &prepared(12)) && !Arc::ptr_eq(&a, &prepared(8)));
 }
