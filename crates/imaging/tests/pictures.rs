@@ -179,3 +179,20 @@ fn foreground_alpha_is_grey_coverage() {
     settings.foreground_alpha = true;
     assert_eq!(develop_image(&image, &settings).pixels, [[1.0; 4], [0.5; 4], [0.0; 4]]);
 }
+
+/// The light of one output pixel, away from the borders, is all in the picture, and an even picture stays even, for
+/// every factor that a scene may ask for.
+#[test]
+fn downsizing_keeps_flux_and_flatness_for_every_factor() {
+    for factor in 1..=8 {
+        let block = |v: u32| v / factor == 4;
+        let image = image(size(9, 9, factor), |x, y| (if block(x) && block(y) { 1.0 } else { 0.0 }, 1.0));
+        let even = self::image(size(9, 9, factor), |_, _| (1.0, 1.0));
+        for filter in FILTERS {
+            let flat = untonemapped(&even, filter, None);
+            assert!(flat.pixels.iter().all(|p| (p[1] - 1.0).abs() < 1e-5), "{filter:?}, {factor}");
+            let flux: f32 = untonemapped(&image, filter, None).pixels.iter().map(|p| p[1]).sum();
+            assert!((flux - 1.0).abs() < 1e-5, "{filter:?}, super-sampled {factor} times: {flux}");
+        }
+    }
+}

@@ -15,7 +15,7 @@
 //!      blades)
 //! ```
 //!
-//! A large R makes straight edges, R = offset a circle. Where R > offset, c lies behind o, and the edge
+//! `docs/manual/generated-aperture.svg` draws it to scale. A large R makes straight edges, R = offset a circle. Where R > offset, c lies behind o, and the edge
 //! of blade i bounds the opening for the directions nearest to φ_i. Where R < offset, c lies before o;
 //! then the far sides of the circles bound the opening, each in the direction opposite to its blade's.
 //! Either way the bounding arc has the distance R - |offset - R| from the centre, and if that is not
