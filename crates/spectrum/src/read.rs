@@ -129,7 +129,7 @@ fn table(node: &Node, sink: &mut Sink) -> Spectrum {
                 node.span_of("start_wavelength"),
                 "the table lies far outside of visible light: its wavelengths are in metres",
             )
-            .hint(format!("did you mean {}?", start * 1e-9)),
+            .hint(format!("did you mean {:e}?", start / 1e9)),
         );
     }
     match Spectrum::regular_tabulated(start, end, &values.value) {
