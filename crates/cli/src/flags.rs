@@ -28,6 +28,8 @@ pub enum Action {
     Merge,
     /// Develops a saved film.
     ToneMap,
+    /// Writes what each strategy adds.
+    Strategies,
     /// Reads and reports, without rendering.
     Check,
     /// Lists the settings.
@@ -129,6 +131,12 @@ pub static FLAGS: &[Flag] = &[
         Action::Seed,
         "Choose the random sequence: the same seed gives the same picture. Without it: 0, or the seed of the film that is gone on with.",
     ),
+    flag(
+        "strategies",
+        Some("N"),
+        Action::Strategies,
+        "For developers: write to -o, instead of the picture, a pyramid of small pictures of what each strategy of bidirectional path tracing adds, by N samples per pixel. Rows hold paths of 1 to 7 edges, columns those made with 0 to 7 vertices from the light; on the left as if there were no other strategy, on the right as they are weighted.",
+    ),
     flag("check", None, Action::Check, "Read the scene and report what is wrong with it, without rendering."),
     flag(
         "print-settings",
@@ -176,6 +184,8 @@ pub struct Arguments {
     pub tone_map: bool,
     /// Path of the picture.
     pub output: Option<String>,
+    /// Only show what each strategy adds, by so many samples per pixel.
+    pub strategies: Option<u32>,
     /// Only check.
     pub check: bool,
     /// Only list the settings.
@@ -219,6 +229,9 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Arguments,
                 .ok_or_else(|| format!("-{} needs a value: -{} {what}", flag.name, flag.name))?,
         };
         apply(flag, value, &mut parsed)?;
+    }
+    if parsed.strategies.is_some() && parsed.output.is_none() {
+        return Err("-strategies needs the picture to write: -strategies 64 -o PICTURE.png".to_owned());
     }
     check_files(&parsed)?;
     Ok(parsed)
@@ -289,6 +302,11 @@ fn apply(flag: &Flag, value: String, parsed: &mut Arguments) -> Result<(), Strin
         Action::Resume => parsed.resume = Some(value),
         Action::Merge => parsed.merge = true,
         Action::ToneMap => parsed.tone_map = true,
+        Action::Strategies => {
+            let passes = value.parse().ok().filter(|n: &u32| *n > 0);
+            parsed.strategies =
+                Some(passes.ok_or_else(|| format!("-strategies needs a whole number above 0, not {value}"))?);
+        }
         Action::Check => parsed.check = true,
         Action::PrintSettings => parsed.print_settings = true,
         Action::DumpMetadata => parsed.dump_metadata = Some(value),

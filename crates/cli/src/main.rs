@@ -12,8 +12,10 @@ use flags::Arguments;
 use indigo_diag::{Diagnostic, Severity, Sink, SourceMap, Style, summary_to_json, to_json, to_text};
 use indigo_igs::Limits;
 use indigo_render::disk::{DiskResolver, DiskTreeStore};
+use indigo_render::output::write_strategies;
 use indigo_render::pool::with_jobs;
-use indigo_scene::{LoadOptions, Loaded, load};
+use indigo_scene::{LoadOptions, Loaded, Scene, load};
+use std::path::Path;
 use std::process::ExitCode;
 
 /// Name and version, in the form that programs which call this one look for.
@@ -88,9 +90,33 @@ fn run(arguments: &Arguments, console: &mut Console) -> u8 {
         return FAILED;
     }
     match loaded.scene {
-        Some(scene) => render::render(scene, arguments, named, console),
+        Some(scene) => match (arguments.strategies, named) {
+            (Some(passes), Some(picture)) => show_strategies(&scene, arguments, passes, &picture, console),
+            (_, named) => render::render(scene, arguments, named, console),
+        },
         None if loaded.sink.has_errors() => BAD_INPUT,
         None => RENDERED,
+    }
+}
+
+/// Writes what each strategy adds to the picture; the exit status.
+fn show_strategies(
+    scene: &Scene,
+    arguments: &Arguments,
+    passes: u32,
+    picture: &Path,
+    console: &mut Console,
+) -> u8 {
+    let seed = arguments.seed.unwrap_or_default();
+    match with_jobs(render::logical_cores(), || write_strategies(scene, seed, passes, picture)) {
+        Ok(path) => {
+            console.say(&format!("Saved {}: {passes} samples per pixel of each picture", path.display()));
+            RENDERED
+        }
+        Err(error) => {
+            console.say(&format!("error: {error}"));
+            FAILED
+        }
     }
 }
 

@@ -67,12 +67,6 @@ impl LightTable {
         self.environment.as_ref()?.portals()
     }
 
-    /// Whether an object is a lamp.
-    #[inline]
-    pub fn is_emitter(&self, object: u32) -> bool {
-        self.lamp(object).is_some()
-    }
-
     #[inline]
     fn lamp(&self, object: u32) -> Option<(usize, &AreaLight)> {
         let i = *self.of_object.get(object as usize)?;

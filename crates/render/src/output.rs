@@ -6,11 +6,12 @@ use crate::first_hits::SceneFirstHits;
 use crate::pool::with_jobs;
 use indigo_film::{FilmRecord, FilmState, Filter, FirstHit, SavedFilm, XyzImage, igi};
 use indigo_imaging::{
-    ImagingError, LinearImage, Metadata, Picture, RenderFacts, develop_image, exr, from_linear, layers,
-    on_sensor, png, untonemapped,
+    Exposure, ImagingError, LinearImage, Metadata, Picture, PictureSettings, RenderFacts, ToneMapping,
+    develop_image, exr, from_linear, layers, on_sensor, png, untonemapped,
 };
-use indigo_scene::Development;
+use indigo_scene::{Development, Scene};
 use indigo_transport::driver::is_indirect;
+use indigo_transport::strategies::Strategies;
 use std::fs::File;
 use std::io::{BufWriter, Write as _};
 use std::path::{Path, PathBuf};
@@ -286,6 +287,21 @@ fn write_with(
 ) -> Result<PathBuf, SaveError> {
     write_atomically(path, write).map_err(|source| SaveError::Write { path: path.to_path_buf(), source })?;
     Ok(path.to_path_buf())
+}
+
+/// Writes what each strategy of bidirectional path tracing adds to a scene's picture, as [`Strategies::pyramids`] shows
+/// it, to a PNG.
+///
+/// # Errors
+/// A picture that could not be encoded or written.
+pub fn write_strategies(scene: &Scene, seed: u64, passes: u32, path: &Path) -> Result<PathBuf, SaveError> {
+    let image =
+        Strategies::gather(scene, seed, passes).pyramids().map_err(|e| SaveError::Thread(e.to_string()))?;
+    // A quarter of full white for the mean of a row: twice as bright as print, since what is dark matters here.
+    let linear = ToneMapping::Linear { scale: 0.25 };
+    let exposure = Exposure { aperture_area: 1.0, lens_sensor_dist: 1.0, duration: 1.0 };
+    let picture = develop_image(&image, &PictureSettings::plain(linear, exposure));
+    write(path, &png::encode(&picture, &Metadata::default(), png::Format::default())?)
 }
 
 fn as_linear(picture: &Picture) -> LinearImage {

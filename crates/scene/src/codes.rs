@@ -1,8 +1,6 @@
 //! The stable codes of diagnostics that come from lowering a scene.
 
 indigo_decl::codes! {
-    /// A switch that is on by default but that nothing renders yet.
-    DEFAULT_NOT_RENDERED = "W0301", "(a setting that is on by default and that this version does not render)";
     /// A name that is defined twice; the last definition counts.
     DUPLICATE_NAME = "W0302", "<material><name>a</name><null_material/></material><material><name>a</name><null_material/></material>";
     /// Something about a mesh or picture file that its user should know.

@@ -6,7 +6,7 @@
 
 use crate::sampler::{Block, PrimarySample, SobolSample};
 use crate::technique::first_event::{FirstEvent, first_event};
-use crate::technique::media::MediaMemory;
+use crate::technique::media::WorldMemory;
 use indigo_film::{FirstHit, Sensor};
 use indigo_math::{Float, Real, Vec2};
 use indigo_scene::Scene;
@@ -21,7 +21,7 @@ const SEED: u64 = 0;
 /// Finds what pixels show; with the memory that it needs.
 #[derive(Clone, Debug, Default)]
 pub struct FirstHits {
-    media: MediaMemory,
+    memory: WorldMemory,
 }
 
 impl FirstHits {
@@ -39,7 +39,7 @@ impl FirstHits {
             let camera = scene.camera.ray(position, Vec2::new(lens_x, lens_y));
             let (sensor, light) = (Sensor::new(&lambda), illuminant::d65(&lambda));
             add(&mut sum.white, sensor.xyz(&light));
-            if let Some(event) = first_event(&mut self.media, scene, &mut numbers, &lambda, &camera) {
+            if let Some(event) = first_event(&mut self.memory, scene, &mut numbers, &lambda, &camera) {
                 add(&mut sum.albedo, sensor.xyz(&(event.albedo * light)));
                 sum.add(ray, &event);
             }

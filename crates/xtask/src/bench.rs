@@ -2,11 +2,16 @@
 
 use crate::{Outcome, bench_rays, process};
 
-/// `rays` races our ray kernel against Embree; any other word is a crate whose benchmarks are run.
+/// `rays` races our ray kernel against Embree, `transport` the ways of rendering against each other; any other word
+/// is a crate whose benchmarks are run.
 pub fn run(arguments: &[String]) -> Outcome {
     match arguments.split_first() {
-        None => Err("usage: cargo xtask bench rays|CRATE [ARGUMENTS]".into()),
+        None => Err("usage: cargo xtask bench rays|transport|CRATE [ARGUMENTS]".into()),
         Some((name, rest)) if name == "rays" => bench_rays::run(rest),
+        Some((name, rest)) if name == "transport" => {
+            let bench = ["bench", "--package", "indigo-render", "--bench", "transport", "--"];
+            process::run(process::cargo(&bench).args(rest))
+        }
         Some((name, rest)) => {
             let package = format!("indigo-{}", name.trim_start_matches("indigo-"));
             process::run(process::cargo(&["bench", "-p", &package, "--benches", "--"]).args(rest))

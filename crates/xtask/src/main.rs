@@ -31,8 +31,8 @@ struct Command {
 const COMMANDS: &[Command] = &[
     Command {
         name: "test",
-        arguments: "[--full] [FILTER]",
-        about: "everything a change must pass; with FILTER only the tests whose name has it",
+        arguments: "[--full | --grid] [FILTER]",
+        about: "everything a change must pass; with FILTER only the tests whose name has it; --grid: the whole agreement grid alone",
         run: stages::test,
     },
     Command { name: "fmt", arguments: "", about: "format all Rust code", run: stages::format },
@@ -62,8 +62,8 @@ const COMMANDS: &[Command] = &[
     },
     Command {
         name: "bench",
-        arguments: "rays|CRATE [ARGUMENTS]",
-        about: "benchmarks: the race against Embree, or those of one crate",
+        arguments: "rays|transport|CRATE [ARGUMENTS]",
+        about: "benchmarks: rays against Embree, modes of rendering at equal time, or those of one crate",
         run: bench::run,
     },
     Command {

@@ -24,11 +24,14 @@ pub fn lint(_: &[String]) -> Outcome {
 /// `cargo xtask test`: every stage runs, whatever became of those before it; then a summary.
 pub fn test(arguments: &[String]) -> Outcome {
     let (flags, filters): (Vec<&String>, Vec<&String>) = arguments.iter().partition(|a| a.starts_with('-'));
-    if flags.iter().any(|flag| *flag != "--full") || filters.len() > 1 {
-        return Err("usage: cargo xtask test [--full] [FILTER]".into());
+    if flags.iter().any(|flag| !["--full", "--grid"].contains(&flag.as_str())) || filters.len() > 1 {
+        return Err("usage: cargo xtask test [--full | --grid] [FILTER]".into());
     }
+    let has = |wanted: &str| flags.iter().any(|flag| *flag == wanted);
     let mut report = Report::default();
-    if let Some(filter) = filters.first() {
+    if has("--grid") {
+        report.stage("agreement grid", || grid(filters.first().map(|f| f.as_str())));
+    } else if let Some(filter) = filters.first() {
         report.stage("tests", || tests(Some(filter)));
     } else {
         report.stage("format", || run(&mut cargo(&["fmt", "--all", "--check"])));
@@ -41,7 +44,7 @@ pub fn test(arguments: &[String]) -> Outcome {
         report.stage("generated files", || generate::run(&["--check".into()]));
         report.stage("documentation", || documents::run(&[]));
     }
-    if !flags.is_empty() {
+    if has("--full") {
         full(&mut report);
     }
     report.finish()
@@ -51,6 +54,12 @@ pub fn test(arguments: &[String]) -> Outcome {
 fn tests(filter: Option<&str>) -> Outcome {
     let python = venv::for_tests()?;
     cargo_test(&["--workspace"], filter, &python)
+}
+
+/// Every technique under every driver on every scene of the grid, of which the tests of each run take a part.
+fn grid(filter: Option<&str>) -> Outcome {
+    let tests = ["test", "--package", "indigo-render", "--test", "agreement"];
+    run(cargo(&tests).args(filter).args(["--", "--include-ignored"]))
 }
 
 fn cargo_test(selection: &[&str], filter: Option<&str>, python: &Path) -> Outcome {
@@ -68,12 +77,13 @@ fn furnace(feature: &str) -> Outcome {
     run(cargo(&["test"]).args(tests).args(["--", "--skip", "a_grey_ball"]))
 }
 
-/// What a release needs beyond every change: the other lane counts, the double-precision oracle and
-/// minutes of fuzzing.
+/// What a release needs beyond every change: the other lane counts, the double-precision oracle, the whole
+/// agreement grid and minutes of fuzzing.
 fn full(report: &mut Report) {
     for variant in VARIANTS {
         report.stage(variant.about, || variant.test());
     }
+    report.stage("agreement grid", || grid(None));
     report.stage("fuzzing", || fuzz::run(&[FULL_FUZZ_SECONDS.into()]));
 }
 

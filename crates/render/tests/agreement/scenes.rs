@@ -198,6 +198,22 @@ pub fn invisible_surfaces() -> Scene {
     ])
 }
 
+/// A sheet that lets scattered light through, under an even sky: what is drawn from the sky depends on the side.
+pub fn light_through_a_sheet() -> Scene {
+    let sheet = format!(
+        "<material><name>sheet</name><diffuse_transmitter><albedo_spectrum>{}</albedo_spectrum></diffuse_transmitter></material>",
+        uniform(0.8)
+    );
+    build(&[
+        common(view()),
+        vec![sheet],
+        vec![wall([0.0, 0.0, 1.0], 1.0, 1.0).text("floor", "white"), model("floor")],
+        vec![wall([0.0, 0.0, -1.0], 0.4, 0.8).text("awning", "sheet"), model("awning")],
+        block("grey"),
+        vec![background(&uniform(1e4))],
+    ])
+}
+
 /// Only one scattering event: nothing may be counted twice where few strategies remain.
 pub fn single_scattering_only() -> Scene {
     let mut scene = diffuse_box();

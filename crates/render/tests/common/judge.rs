@@ -39,8 +39,9 @@ pub fn assert_near(what: &str, measured: &Moments, expected: f64, tolerance: f64
     let deviation = measured.mean() / expected - 1.0;
     assert!(
         deviation.abs() <= tolerance,
-        "{what}: {} instead of {expected}: off by {deviation:+.2e} (standard error {relative_error:.1e})",
-        measured.mean()
+        "{what}: {} instead of {expected}: off by {deviation:+.2e} (standard error {relative_error:.1e})\nagain: {}",
+        measured.mean(),
+        replay()
     );
 }
 
@@ -50,10 +51,18 @@ pub fn assert_agrees(what: &str, measured: &Moments, expected: f64) {
     assert_same(what, measured, &Moments::exact(expected));
 }
 
+/// The command that runs the test at hand again, with the same seeds: they are fixed.
+pub fn replay() -> String {
+    // The harness names a test's thread by the test.
+    let thread = std::thread::current();
+    let name = thread.name().unwrap_or_default().to_owned();
+    format!("cargo test -p {} --test {} {name}", env!("CARGO_PKG_NAME"), env!("CARGO_CRATE_NAME"))
+}
+
 /// Says that two sets of measured means have one expectation.
 #[track_caller]
 pub fn assert_same(what: &str, a: &Moments, b: &Moments) {
     let rounding = ROUNDING * a.mean().abs().max(b.mean().abs());
     let test = welch(a, b, rounding).at(sidak(FAMILY, TESTS));
-    assert!(test.passed(), "{what}: {test}");
+    assert!(test.passed(), "{what}: {test}\nagain: {}", replay());
 }

@@ -1,11 +1,9 @@
 //! The first scattering event of a camera ray.
 
-use super::flight::{Arrival, Flight};
-use super::media::MediaMemory;
+use super::flight::{Blocks, Flight};
+use super::media::WorldMemory;
 use super::path::Path;
-use super::surface::{Surface, shade};
-use super::vertex::Vertex;
-use crate::sampler::{Block, PrimarySample};
+use crate::sampler::PrimarySample;
 use indigo_camera::CameraRay;
 use indigo_geom::Ray;
 use indigo_math::{Real, Vec3};
@@ -29,39 +27,25 @@ pub struct FirstEvent {
 
 /// Finds the event of a camera ray; `None` where the ray leaves the scene.
 pub fn first_event(
-    media: &mut MediaMemory,
+    memory: &mut WorldMemory,
     scene: &Scene,
     numbers: &mut impl PrimarySample,
     lambda: &SampledWavelengths,
     camera: &CameraRay,
 ) -> Option<FirstEvent> {
-    let world = media.world(scene, lambda);
+    let world = memory.world(scene, lambda);
     let ray = Ray::new(camera.origin, camera.direction);
-    let mut flight = Flight::new(ray.o, ray, scene.camera_media);
+    let mut flight = Flight::new(ray.o, ray, scene.camera_media_along(&ray));
     let mut number = 0;
-    let (vertex, surface) = loop {
-        let arrival = flight.advance(&world, || numbers.block(Block::connect(number))[2]);
-        let wo = -flight.ray.d;
-        match &arrival {
-            Arrival::Environment => return None,
-            Arrival::Medium(p) => break (Vertex::in_medium(&world, *p, wo, flight.media), None),
-            Arrival::Surface(at) => {
-                let choice = numbers.block(Block::scatter(number))[3];
-                match shade(&world, at, wo, &flight.media, choice) {
-                    Surface::Scatters(vertex) => {
-                        break (vertex, Some([at.object, scene.material_number_at(at)]));
-                    }
-                    Surface::Unseen(media) => {
-                        flight.pass(&world, at, media);
-                        number += 1;
-                    }
-                }
-            }
-        }
-    };
+    // The last surface that was met: where the event is on one, the one on which it is.
+    let mut met = None;
+    let arrival = flight.fly_to_vertex(&world, numbers, Blocks::Camera, &mut number, |_, at, _| {
+        met = Some([at.object, scene.material_number_at(at)]);
+    });
+    let (vertex, [u0, u1, u2, _]) = arrival?;
+    let surface = met.filter(|_| vertex.normal().is_some());
     let mut path = Path::new(camera.ratio);
-    path.arrive(&flight.passage, &vertex);
-    let [u0, u1, u2, _] = numbers.block(Block::scatter(number));
+    path.arrive(&flight, &vertex);
     let albedo = vertex.sample([u0, u1, u2], Mode::Radiance).map_or(SampledSpectrum::ZERO, |next| {
         let ratio = path.ratio * next.pdf.ratio_to_hero();
         // Radiance that goes into a denser medium grows by the squared index: that is no reflectance.

@@ -1,9 +1,13 @@
 //! A path on its way from one vertex to the next, through media and surfaces that are not to be seen.
 
 use super::media::{Passage, World};
+use super::surface::{Surface, shade};
+use super::vertex::Vertex;
+use crate::sampler::{Block, PrimarySample};
 use indigo_geom::{Ray, SurfacePoint};
 use indigo_math::{Real, Vec3, elementary};
 use indigo_scatter::MediumStack;
+use indigo_spectrum::SampledSpectrum;
 
 /// A ray of unit direction on its way.
 #[derive(Clone, Copy, Debug)]
@@ -18,8 +22,34 @@ pub(super) struct Flight {
     passed: Real,
 }
 
+/// Whose numbers decide about a path: the camera's or the light's.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Blocks {
+    Camera,
+    Light,
+}
+
+impl Blocks {
+    #[inline(always)]
+    fn scatter(self, number: u32) -> Block {
+        match self {
+            Self::Camera => Block::scatter(number),
+            Self::Light => Block::light_scatter(number),
+        }
+    }
+
+    /// Which of the numbers of [`Block::connect`] is the distance at which a medium scatters.
+    #[inline(always)]
+    fn distance(self) -> usize {
+        match self {
+            Self::Camera => 2,
+            Self::Light => 3,
+        }
+    }
+}
+
 /// What a flight comes to.
-pub(super) enum Arrival {
+enum Arrival {
     /// Nothing for ever.
     Environment,
     /// A surface.
@@ -43,9 +73,58 @@ impl Flight {
         self.passed - self.start
     }
 
+    /// The direction back to where it came from.
+    #[inline]
+    pub fn back(&self) -> Vec3 {
+        -self.ray.d
+    }
+
+    /// Flies until it is scattered; `None` if it leaves the scene. Of every surface that it meets, seen or unseen,
+    /// `met` is told first. `number` counts the vertices and what is not seen between them, since each has a
+    /// choice of its own where it is part of a blend; a surface that is not seen is no scattering event.
+    ///
+    /// Gives the vertex, and the numbers by which it scatters.
+    #[inline(always)]
+    pub fn fly_to_vertex(
+        &mut self,
+        world: &World,
+        numbers: &mut impl PrimarySample,
+        blocks: Blocks,
+        number: &mut u32,
+        mut met: impl FnMut(&Passage, &SurfacePoint, Vec3),
+    ) -> Option<(Vertex, [Real; 4])> {
+        loop {
+            let arrival = self.advance(world, || numbers.block(Block::connect(*number))[blocks.distance()]);
+            let wo = self.back();
+            match &arrival {
+                Arrival::Environment => return None,
+                Arrival::Medium(p) => {
+                    let vertex = Vertex::in_medium(world, *p, wo, self.media);
+                    return Some((vertex, numbers.block(blocks.scatter(*number))));
+                }
+                Arrival::Surface(at) => {
+                    met(&self.passage, at, wo);
+                    let u = numbers.block(blocks.scatter(*number));
+                    match shade(world, at, wo, &self.media, u[3]) {
+                        Surface::Scatters(vertex) => return Some((vertex, u)),
+                        Surface::Unseen(media) => self.pass(world, at, media),
+                    }
+                    *number += 1;
+                }
+            }
+        }
+    }
+
+    /// What a throughput over the hero's density becomes on arrival at a vertex.
+    #[inline]
+    pub fn arrived(&self, beta: SampledSpectrum, vertex: &Vertex) -> SampledSpectrum {
+        let beta = beta * self.passage.weight();
+        vertex.collision().map_or(beta, |collision| beta.times(collision))
+    }
+
     /// Goes on to whatever comes first. `u` in [0, 1) is asked for where the medium scatters.
     #[inline]
-    pub fn advance(&mut self, world: &World, u: impl FnOnce() -> Real) -> Arrival {
+    fn advance(&mut self, world: &World, u: impl FnOnce() -> Real) -> Arrival {
         let mut ray = self.ray;
         let mut scattered = Real::INFINITY;
         if world.has_media() {
@@ -55,7 +134,7 @@ impl Flight {
                 ray.t_max = ray.t_max.min(scattered);
             }
         }
-        let hit = world.scene.accel.intersect(&ray);
+        let hit = world.intersect(&ray);
         let t = hit.as_ref().map_or(scattered, |hit| hit.t);
         if world.has_media() {
             self.passage = self.passage.then(world.passage(&self.media, t - self.passed));
@@ -74,7 +153,7 @@ impl Flight {
 
     /// Goes on beyond the surface that it came to, with other media round it.
     #[inline]
-    pub fn pass(&mut self, world: &World, at: &SurfacePoint, media: MediumStack) {
+    fn pass(&mut self, world: &World, at: &SurfacePoint, media: MediumStack) {
         self.ray = self.ray.beyond(self.passed, at.p_error.length().max(world.scene.nudge_m));
         self.media = media;
     }

@@ -6,16 +6,20 @@
 //! is kept as if it had been the hero (Wilkie et al. 2014, section 3), so strongly coloured scattering has
 //! bounded weights: a lane's value is divided by the mean of all lanes' densities.
 
+use indigo_geom::{Hit, Ray};
 use indigo_math::{Real, elementary};
 use indigo_scatter::media::Coefficients;
 use indigo_scatter::{Interface, MediumId, MediumStack};
 use indigo_scene::Scene;
 use indigo_spectrum::{LanePdf, SampledSpectrum, SampledWavelengths};
-use std::cell::OnceCell;
+use std::cell::{Cell, OnceCell};
 
-/// Memory for the media of a sample.
+/// What a technique keeps from sample to sample of the scene that it looks at.
 #[derive(Clone, Debug, Default)]
-pub struct MediaMemory(Vec<OnceCell<Coefficients>>);
+pub struct WorldMemory {
+    media: Vec<OnceCell<Coefficients>>,
+    rays: Cell<u64>,
+}
 
 /// A scene at the wavelengths of a sample.
 #[derive(Clone, Copy)]
@@ -24,19 +28,39 @@ pub(super) struct World<'a> {
     pub lambda: &'a SampledWavelengths,
     /// Each medium is baked when it is first asked for.
     media: &'a [OnceCell<Coefficients>],
+    rays: &'a Cell<u64>,
 }
 
-impl MediaMemory {
+impl WorldMemory {
+    /// Rays traced so far.
+    pub(super) fn rays(&self) -> u64 {
+        self.rays.get()
+    }
+
     /// The scene at some wavelengths; what was known of others is forgotten.
     #[inline]
     pub(super) fn world<'a>(&'a mut self, scene: &'a Scene, lambda: &'a SampledWavelengths) -> World<'a> {
-        self.0.clear();
-        self.0.resize(scene.media.len(), OnceCell::new());
-        World { scene, lambda, media: &self.0 }
+        self.media.clear();
+        self.media.resize(scene.media.len(), OnceCell::new());
+        World { scene, lambda, media: &self.media, rays: &self.rays }
     }
 }
 
 impl World<'_> {
+    /// The first surface on a ray's way, if any.
+    #[inline]
+    pub fn intersect(&self, ray: &Ray) -> Option<Hit> {
+        self.rays.set(self.rays.get() + 1);
+        self.scene.accel.intersect(ray)
+    }
+
+    /// Whether a surface is on a ray's way.
+    #[inline]
+    pub fn is_occluded(&self, ray: &Ray) -> bool {
+        self.rays.set(self.rays.get() + 1);
+        self.scene.accel.occluded(ray)
+    }
+
     /// Whether any medium but air may be met.
     #[inline(always)]
     pub fn has_media(&self) -> bool {

@@ -216,3 +216,6 @@ impl Weight {
         self.weight / self.mean_ratio
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -7,9 +7,9 @@
 //! hero's; a lane's estimate is `beta / mean(ratio)` (Wilkie et al. 2014, equation 12). Weights
 //! between strategies use densities averaged over the lanes.
 
-use super::flight::{Arrival, Flight};
-use super::media::{MediaMemory, Passage, World};
-use super::surface::{Surface, emitter_hit, shade};
+use super::flight::{Blocks, Flight};
+use super::media::{Passage, World, WorldMemory};
+use super::surface::emitter_hit;
 use super::vertex::Vertex;
 use super::visibility::way_to_light;
 use super::{DIRECT, Events, PathSample};
@@ -107,11 +107,10 @@ impl Path {
 
     /// Arrives at a vertex.
     #[inline]
-    pub fn arrive(&mut self, passage: &Passage, vertex: &Vertex) {
-        self.beta *= passage.weight();
-        self.ratio *= passage.free.ratio_to_hero();
+    pub fn arrive(&mut self, flight: &Flight, vertex: &Vertex) {
+        self.beta = flight.arrived(self.beta, vertex);
+        self.ratio *= flight.passage.free.ratio_to_hero();
         if let Some(collision) = vertex.collision() {
-            self.beta = self.beta.times(collision);
             self.ratio *= collision;
         }
     }
@@ -131,10 +130,15 @@ impl Path {
 /// Path tracing, with the memory that it needs.
 #[derive(Clone, Debug, Default)]
 pub struct PathTracer {
-    media: MediaMemory,
+    memory: WorldMemory,
 }
 
 impl PathTracer {
+    /// Rays traced so far.
+    pub fn rays(&self) -> u64 {
+        self.memory.rays()
+    }
+
     /// Traces the path of a camera ray.
     pub fn trace(
         &mut self,
@@ -144,7 +148,7 @@ impl PathTracer {
         camera: &CameraRay,
         events: Events,
     ) -> PathSample {
-        trace(&self.media.world(scene, lambda), sample, camera, events)
+        trace(&self.memory.world(scene, lambda), sample, camera, events)
     }
 }
 
@@ -156,38 +160,18 @@ fn trace(world: &World, sample: &mut impl PrimarySample, camera: &CameraRay, eve
     let mut alpha = 0.0;
     let mut direct = None;
     let mut depth = 0;
-    // Counts what is not seen, too: each has a choice of its own where it is part of a blend.
     let mut number = 0;
     loop {
-        let arrival = flight.advance(world, || sample.block(Block::connect(number))[2]);
-        let wo = -flight.ray.d;
-        let (vertex, u) = match &arrival {
-            Arrival::Environment => {
-                let light = scene.lights.environment(-wo, world.lambda).filter(|_| events.holds(depth));
-                if let Some(light) = light {
-                    let pdf = |last: &LastScatter| scene.lights.pdf_environment(&last.at, -wo);
-                    path.add_found(&flight.passage, light, pdf);
-                }
-                break;
+        let arrival = flight.fly_to_vertex(world, sample, Blocks::Camera, &mut number, |passage, at, wo| {
+            if events.holds(depth) {
+                add_emission(world, &mut path, passage, at, wo);
             }
-            Arrival::Medium(p) => {
-                (Vertex::in_medium(world, *p, wo, flight.media), sample.block(Block::scatter(number)))
+        });
+        let Some((vertex, u)) = arrival else {
+            if events.holds(depth) {
+                add_environment(world, &mut path, &flight);
             }
-            Arrival::Surface(at) => {
-                if events.holds(depth) {
-                    add_emission(world, &mut path, &flight.passage, at, wo);
-                }
-                let u = sample.block(Block::scatter(number));
-                match shade(world, at, wo, &flight.media, u[3]) {
-                    Surface::Scatters(vertex) => (vertex, u),
-                    Surface::Unseen(media) => {
-                        // Not a scattering event: the path goes on as if nothing were here.
-                        flight.pass(world, at, media);
-                        number += 1;
-                        continue;
-                    }
-                }
-            }
+            break;
         };
         alpha = 1.0;
         if depth == DIRECT {
@@ -197,7 +181,7 @@ fn trace(world: &World, sample: &mut impl PrimarySample, camera: &CameraRay, eve
         if depth == events.most {
             break;
         }
-        path.arrive(&flight.passage, &vertex);
+        path.arrive(&flight, &vertex);
         let lights = sample.block(Block::light(number));
         if events.holds(depth + 1) && vertex.is_connectable() {
             add_direct_light(world, &mut path, &vertex, lights);
@@ -233,6 +217,14 @@ fn add_emission(world: &World, path: &mut Path, passage: &Passage, at: &SurfaceP
     let hit = emitter_hit(at);
     if let Some(light) = lights.emitted(&hit, wo, world.lambda) {
         path.add_found(passage, light, |last| lights.pdf_object(&hit, &last.at));
+    }
+}
+
+#[inline]
+fn add_environment(world: &World, path: &mut Path, flight: &Flight) {
+    let (lights, towards) = (&world.scene.lights, flight.ray.d);
+    if let Some(light) = lights.environment(towards, world.lambda) {
+        path.add_found(&flight.passage, light, |last| lights.pdf_environment(&last.at, towards));
     }
 }
 

@@ -60,6 +60,14 @@ impl Tracer {
         Found { path, sensor: Sensor::new(&lambda) }
     }
 
+    /// Rays traced so far.
+    pub fn rays(&self) -> u64 {
+        match self {
+            Self::Path(path) => path.rays(),
+            Self::Bidirectional(b) => b.rays(),
+        }
+    }
+
     /// What the last sample put elsewhere on the film than where its camera ray came from.
     #[inline]
     pub fn splats(&self) -> &[Splat] {

@@ -65,6 +65,15 @@ impl Vertex {
         }
     }
 
+    /// The same on the side to which a direction leads.
+    #[inline]
+    pub fn receiver_towards(&self, direction: Vec3) -> Receiver {
+        match &self.model {
+            Model::Surface(s) if direction.dot(s.n_g()) < 0.0 => Receiver::facing(self.point.p, -s.n_g()),
+            _ => self.receiver(),
+        }
+    }
+
     /// What turns a density in solid angle as seen from elsewhere, over squared distance, into that of this
     /// vertex: the cosine to the surface's normal, or the coefficient with which the medium scatters.
     #[inline]
@@ -120,13 +129,16 @@ impl Vertex {
         }
     }
 
+    /// Whether a direction leads through the surface, away from the side from which the path came.
+    #[inline]
+    pub fn is_across(&self, direction: Vec3) -> bool {
+        matches!(&self.model, Model::Surface(s) if direction.dot(s.n_g()) < 0.0)
+    }
+
     /// The media into which a direction leads.
     #[inline]
     pub fn media_towards(&self, direction: Vec3) -> &MediumStack {
-        match &self.model {
-            Model::Surface(s) if direction.dot(s.n_g()) < 0.0 => &self.below,
-            _ => &self.above,
-        }
+        if self.is_across(direction) { &self.below } else { &self.above }
     }
 
     /// By what refraction into a direction divides radiance, (η_there / η_here)²: light is not lost by it, so

@@ -81,7 +81,7 @@ pub(super) fn way(world: &World, from: &Vertex, wi: Vec3, to: &Point) -> Option<
 /// where a surface stands between.
 #[inline]
 fn passage(world: &World, ray: &Ray, length: Real, media: &MediumStack) -> Option<Passage> {
-    if !world.scene.accel.occluded(ray) {
+    if !world.is_occluded(ray) {
         return Some(world.passage(media, ray.t_max * length));
     }
     if world.scene.has_unseen_surfaces { walk(world, *ray, length, *media) } else { None }
@@ -92,7 +92,7 @@ fn walk(world: &World, mut ray: Ray, length: Real, mut media: MediumStack) -> Op
     let scene = world.scene;
     let mut passed = 0.0;
     let mut sum = Passage::CLEAR;
-    while let Some(hit) = scene.accel.intersect(&ray) {
+    while let Some(hit) = world.intersect(&ray) {
         let at = scene.accel.surface(&ray, &hit);
         let (share, beyond) = unseen(world, &at, ray.d, &media);
         if share == 0.0 {

@@ -1,14 +1,18 @@
 //! Joints of a camera path's vertex: to a light, and to vertices of the light's path.
 
-use super::light_path::LightVertex;
+use super::light_path::LightPath;
 use super::{CameraVertex, Sample};
 use crate::sampler::{Block, PrimarySample};
 use crate::technique::Record;
-use crate::technique::mis::{Prefix, Weight};
+use crate::technique::media::{Passage, World};
+use crate::technique::mis::{Prefix, Step, Weight};
+use crate::technique::surface::emitter_hit;
 use crate::technique::visibility::{way, way_to_light};
-use indigo_math::Real;
+use indigo_geom::SurfacePoint;
+use indigo_light::Receiver;
+use indigo_math::{Real, Vec3};
 use indigo_scatter::Mode;
-use indigo_spectrum::SampledSpectrum;
+use indigo_spectrum::{LanePdf, SampledSpectrum};
 
 /// A vertex of the camera's path is joined to about this many of the light's path at most, so that
 /// very long paths cost no more than their length.
@@ -61,12 +65,13 @@ pub(super) fn draw_light(
 /// the light's, or to every `stride`-th of them where they are many.
 pub(super) fn join(
     sample: &Sample,
-    vertices: &[LightVertex],
+    light_path: &LightPath,
     end: &CameraVertex,
     number: u32,
     numbers: &mut impl PrimarySample,
     record: &mut impl Record,
 ) -> SampledSpectrum {
+    let vertices = &light_path.vertices;
     let stride = vertices.len().div_ceil(JOINTS).max(1);
     let first = if stride == 1 {
         0
@@ -81,19 +86,22 @@ pub(super) fn join(
             break;
         }
         if sample.events.holds(events) && light.vertex.is_connectable() {
-            sum += join_pair(sample, end, light, i as u32 + 2, record);
+            sum += join_pair(sample, end, light_path, i, stride as Real, record);
         }
     }
-    sum * stride as Real
+    sum
 }
 
+/// Vertex `i` of the light's path, which stands for `stride` of them.
 fn join_pair(
     sample: &Sample,
     end: &CameraVertex,
-    light: &LightVertex,
-    s: u32,
+    light_path: &LightPath,
+    i: usize,
+    stride: Real,
     record: &mut impl Record,
 ) -> SampledSpectrum {
+    let light = &light_path.vertices[i];
     let to_light = light.vertex.point.p - end.vertex.point.p;
     let distance2 = to_light.length2();
     if distance2 == 0.0 {
@@ -105,7 +113,7 @@ fn join_pair(
         return SampledSpectrum::ZERO;
     }
     let there = light.vertex.eval(-wi, Mode::Importance);
-    let value = end.beta * light.beta * here.f_cos * there.f_cos / distance2;
+    let value = end.beta * light.beta * here.f_cos * there.f_cos * (stride / distance2);
     if value.is_black() {
         return SampledSpectrum::ZERO;
     }
@@ -114,27 +122,76 @@ fn join_pair(
     };
     let value = value * passage.transmittance;
     let free = passage.free / distance2;
-    let others_light = light.prefix.others(here.pdf * light.vertex.reach(wi) * free, there.pdf_rev);
+    let prefix = light_path.prefix_towards(i, -wi);
+    let others_light = prefix.others(here.pdf * light.vertex.reach(wi) * free, there.pdf_rev);
     let others_camera = end.prefix.others(there.pdf * end.vertex.reach(wi) * free, here.pdf_rev);
-    let weight = Weight::joint(light.prefix.ratio, others_light, end.prefix.ratio, others_camera);
-    record.contribution((s, end.depth + 2), None, value / weight.mean_ratio, weight.weight);
+    let weight = Weight::joint(prefix.ratio, others_light, end.prefix.ratio, others_camera);
+    record.contribution((i as u32 + 2, end.depth + 2), None, value / weight.mean_ratio, weight.weight);
     value * weight.factor()
 }
 
-/// Strategy (0, t): light that the camera's path met by itself, with the densities of drawing it and of
-/// its emission.
-pub(super) fn found(
+/// The camera's path where it meets something that may shine.
+pub(super) struct Arrived<'a> {
+    pub step: &'a Step,
+    /// The vertex that it left, as lights know it.
+    pub from: &'a Receiver,
+    /// Its throughput there.
+    pub beta: SampledSpectrum,
+    /// The way since.
+    pub passage: &'a Passage,
+    /// Scattering events so far.
+    pub depth: u32,
+}
+
+/// Strategy (0, t): the path meets a surface that may be a lamp's.
+pub(super) fn meet_lamp(
+    world: &World,
+    path: &Arrived,
+    at: &SurfacePoint,
+    wo: Vec3,
+    record: &mut impl Record,
+) -> SampledSpectrum {
+    let lights = &world.scene.lights;
+    let cos = wo.dot(at.n_g).abs();
+    let hit = emitter_hit(at);
+    let light = lights.emitted(&hit, wo, world.lambda).filter(|_| cos > 0.0);
+    let Some(light) = light else { return SampledSpectrum::ZERO };
+    let distance2 = (at.p - path.from.p).length2();
+    let prefix = path.step.arrive(distance2, LanePdf::splat(cos), path.passage.free);
+    let drawn = lights.pdf_object(&hit, path.from) * cos / distance2;
+    let pdf = lights.pdf_emission_object(&hit, wo);
+    found(path, &prefix, light, [drawn, pdf.first, pdf.second], record)
+}
+
+/// Strategy (0, t): the path leaves the scene.
+pub(super) fn meet_environment(
+    world: &World,
+    path: &Arrived,
+    towards: Vec3,
+    record: &mut impl Record,
+) -> SampledSpectrum {
+    let lights = &world.scene.lights;
+    let Some(light) = lights.environment(towards, world.lambda) else { return SampledSpectrum::ZERO };
+    let prefix = path.step.arrive_at_environment(path.passage.free);
+    let drawn = lights.pdf_environment(path.from, towards);
+    let pdf = lights.pdf_emission_environment(towards, path.from.p);
+    found(path, &prefix, light, [drawn, pdf.first, pdf.second], record)
+}
+
+/// Light that the camera's path met by itself, with the densities of drawing it and of its emission.
+fn found(
+    path: &Arrived,
     prefix: &Prefix,
-    value: SampledSpectrum,
-    depth: u32,
+    light: SampledSpectrum,
     [drawn, first, second]: [Real; 3],
     record: &mut impl Record,
 ) -> SampledSpectrum {
-    let weight = if depth == 0 {
+    let value = path.beta * path.passage.weight() * light;
+    let weight = if path.depth == 0 {
         Weight::only(prefix.ratio)
     } else {
         Weight::new(prefix.ratio, prefix.others_at_light(drawn, first, second))
     };
-    record.contribution((0, depth + 2), None, value / weight.mean_ratio, weight.weight);
+    record.contribution((0, path.depth + 2), None, value / weight.mean_ratio, weight.weight);
     value * weight.factor()
 }

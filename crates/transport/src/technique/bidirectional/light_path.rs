@@ -1,17 +1,16 @@
 //! The path of light from a lamp or the environment, joined to the lens wherever it scatters.
 
-use super::{ROULETTE_FROM, Sample, go_on};
+use super::{ROULETTE_FROM, Sample};
 use crate::sampler::{Block, PrimarySample};
-use crate::technique::flight::{Arrival, Flight};
+use crate::technique::flight::{Blocks, Flight};
 use crate::technique::media::World;
 use crate::technique::mis::{Prefix, Step, Weight};
-use crate::technique::surface::{Surface, shade};
 use crate::technique::vertex::Vertex;
 use crate::technique::visibility::{Point, way};
 use crate::technique::{DIRECT, Record, Splat};
 use indigo_geom::Ray;
 use indigo_light::Emission;
-use indigo_math::Real;
+use indigo_math::{Real, Vec3};
 use indigo_scatter::{MediumStack, Mode};
 use indigo_spectrum::{LanePdf, SampledSpectrum};
 
@@ -20,6 +19,9 @@ use indigo_spectrum::{LanePdf, SampledSpectrum};
 pub(super) struct LightPath {
     pub vertices: Vec<LightVertex>,
     splats: Vec<Splat>,
+    /// The density with which light is drawn for the first vertex, over that of its emission: where the camera's path
+    /// comes to it from the side of the light, and from across the surface.
+    drawn: [Real; 2],
     /// Density of film positions, over that of the film as a whole.
     pub film_density: Real,
 }
@@ -36,7 +38,19 @@ pub(super) struct LightVertex {
 impl LightPath {
     /// Without vertices, for a film of which the part `rendered` gets camera paths.
     pub fn new(rendered: Real) -> Self {
-        Self { vertices: vec![], splats: vec![], film_density: 1.0 / rendered }
+        Self { vertices: vec![], splats: vec![], drawn: [0.0; 2], film_density: 1.0 / rendered }
+    }
+
+    /// What is known of a vertex where the path goes on from it in a direction. That light is drawn for the first
+    /// one has the density of a receiver on the side to which it goes on, since there the camera's path comes from.
+    #[inline]
+    pub fn prefix_towards(&self, i: usize, direction: Vec3) -> Prefix {
+        let light = &self.vertices[i];
+        let mut prefix = light.prefix;
+        if i == 0 {
+            prefix.before *= self.drawn[usize::from(light.vertex.is_across(direction))];
+        }
+        prefix
     }
 
     /// What the last path put on the film.
@@ -65,54 +79,34 @@ impl LightPath {
         let mut flight = leave_lamp(world, &emission);
         let (mut events, mut number) = (0, 0);
         loop {
-            let arrival = flight.advance(world, || numbers.block(Block::connect(number))[3]);
-            let wo = -flight.ray.d;
-            let (vertex, u) = match &arrival {
-                Arrival::Environment => return,
-                Arrival::Medium(p) => {
-                    let u = numbers.block(Block::light_scatter(number));
-                    (Vertex::in_medium(world, *p, wo, flight.media), u)
-                }
-                Arrival::Surface(at) => {
-                    let u = numbers.block(Block::light_scatter(number));
-                    match shade(world, at, wo, &flight.media, u[3]) {
-                        Surface::Scatters(vertex) => (vertex, u),
-                        Surface::Unseen(media) => {
-                            flight.pass(world, at, media);
-                            number += 1;
-                            continue;
-                        }
-                    }
-                }
-            };
-            let (reach, free) = (vertex.reach(wo), flight.passage.free);
+            let arrival = flight.fly_to_vertex(world, numbers, Blocks::Light, &mut number, |_, _, _| {});
+            let Some((vertex, u)) = arrival else { return };
+            let (reach, free) = (vertex.reach(flight.back()), flight.passage.free);
             // Along the surface: such a vertex has no density.
             if reach.hero() == 0.0 {
                 return;
             }
             events += 1;
             let is_first = events == 1;
-            let mut prefix = if is_first && emission.point.is_none() {
+            let prefix = if is_first && emission.point.is_none() {
                 step.arrive_from_environment(reach, free)
             } else {
                 step.arrive(flight.length() * flight.length(), reach, free)
             };
             if is_first {
-                let drawn = scene.lights.pdf_sample_of(&emission, &vertex.receiver());
-                prefix.before *= drawn / emission.pdf.first;
+                let receivers = [flight.back(), flight.ray.d].map(|d| vertex.receiver_towards(d));
+                self.drawn =
+                    receivers.map(|to| scene.lights.pdf_sample_of(&emission, &to) / emission.pdf.first);
             }
-            beta *= flight.passage.weight();
-            if let Some(collision) = vertex.collision() {
-                beta = beta.times(collision);
-            }
-            let light = LightVertex { vertex, beta, prefix };
+            beta = flight.arrived(beta, &vertex);
+            self.vertices.push(LightVertex { vertex, beta, prefix });
+            let last = self.vertices.len() - 1;
             if vertex.is_connectable() {
-                self.splat(sample, &light, events, record);
+                self.splat(sample, last, record);
             }
             if events >= sample.events.most {
                 return;
             }
-            self.vertices.push(light);
             if events >= ROULETTE_FROM {
                 let [u, ..] = numbers.block(Block::connect(number));
                 let chance = (beta.max_lane() / (prefix.ratio.mean() * initial)).min(1.0);
@@ -126,14 +120,15 @@ impl LightPath {
             if beta.is_black() {
                 return;
             }
-            step = go_on(&prefix, &next, &vertex);
+            step = self.prefix_towards(last, next.wi).step(&next, vertex.reach(next.wi));
             flight = vertex.leave(world, next.wi);
             number += 1;
         }
     }
 
     /// Strategy (s, 1): joins a vertex of the light's path to the lens.
-    fn splat(&mut self, sample: &Sample, light: &LightVertex, events: u32, record: &mut impl Record) {
+    fn splat(&mut self, sample: &Sample, i: usize, record: &mut impl Record) {
+        let (light, events) = (&self.vertices[i], i as u32 + 1);
         if !sample.events.holds(events) {
             return;
         }
@@ -159,8 +154,9 @@ impl LightPath {
         let Some(passage) = way(world, &light.vertex, wi, &Point::free(camera.origin)) else { return };
         let pdf = scene.camera.pdf_direction(-wi);
         let found = light.vertex.reach(wi) * passage.free * (pdf * self.film_density / distance2);
-        let others = light.prefix.others(found, scattered.pdf_rev);
-        let weight = Weight::joint(light.prefix.ratio, others, camera.ratio, LanePdf::ZERO);
+        let prefix = self.prefix_towards(i, wi);
+        let others = prefix.others(found, scattered.pdf_rev);
+        let weight = Weight::joint(prefix.ratio, others, camera.ratio, LanePdf::ZERO);
         let arrived = light.beta.times(camera.ratio) * passage.transmittance;
         let value = arrived * scattered.f_cos * (film.importance * pdf / distance2);
         record.contribution((events + 1, 1), Some(position), value / weight.mean_ratio, weight.weight);

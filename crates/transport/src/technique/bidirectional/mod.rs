@@ -14,10 +14,9 @@
 mod joints;
 mod light_path;
 
-use super::flight::{Arrival, Flight};
-use super::media::{MediaMemory, World};
+use super::flight::{Blocks, Flight};
+use super::media::{World, WorldMemory};
 use super::mis::{Prefix, Step};
-use super::surface::{Surface, emitter_hit, shade};
 use super::vertex::Vertex;
 use super::{DIRECT, Events, PathSample, Record, Splat};
 use crate::sampler::{Block, PrimarySample};
@@ -25,10 +24,10 @@ use indigo_camera::CameraRay;
 use indigo_geom::Ray;
 use indigo_light::Receiver;
 use indigo_math::Real;
-use indigo_scatter::{Mode, Scattered};
+use indigo_scatter::Mode;
 use indigo_scene::Scene;
-use indigo_spectrum::{LanePdf, SampledSpectrum, SampledWavelengths};
-use joints::{draw_light, found, join};
+use indigo_spectrum::{SampledSpectrum, SampledWavelengths};
+use joints::{Arrived, draw_light, join, meet_environment, meet_lamp};
 use light_path::LightPath;
 
 /// Vertices before roulette sets in: short paths carry most of the light.
@@ -37,7 +36,7 @@ const ROULETTE_FROM: u32 = 3;
 /// Bidirectional path tracing, with the memory that it needs.
 #[derive(Clone, Debug)]
 pub struct Bidirectional {
-    media: MediaMemory,
+    memory: WorldMemory,
     light_path: LightPath,
 }
 
@@ -61,7 +60,12 @@ impl Bidirectional {
     /// For a film of which the part `rendered` (1: all of it) gets camera paths.
     pub fn new(rendered: Real) -> Self {
         let light_path = LightPath::new(rendered);
-        Self { media: MediaMemory::default(), light_path }
+        Self { memory: WorldMemory::default(), light_path }
+    }
+
+    /// Rays traced so far.
+    pub fn rays(&self) -> u64 {
+        self.memory.rays()
     }
 
     /// What the last sample put elsewhere on the film than where its camera ray came from.
@@ -79,7 +83,7 @@ impl Bidirectional {
         events: Events,
         record: &mut impl Record,
     ) -> PathSample {
-        let sample = Sample { world: self.media.world(scene, lambda), camera, events };
+        let sample = Sample { world: self.memory.world(scene, lambda), camera, events };
         self.light_path.trace(&sample, numbers, record);
         trace_camera(&sample, &self.light_path, numbers, record)
     }
@@ -106,68 +110,36 @@ fn trace_camera(
     // By what roulette divides the throughput, so that it sees losses alone.
     let mut expected = camera.importance;
     loop {
-        let arrival = flight.advance(world, || numbers.block(Block::connect(number))[2]);
-        let wo = -flight.ray.d;
-        let free = flight.passage.free;
-        let arrived = beta * flight.passage.weight();
-        let (vertex, u) = match &arrival {
-            Arrival::Environment => {
-                let light = scene.lights.environment(-wo, world.lambda).filter(|_| events.holds(depth));
-                if let Some(light) = light {
-                    let prefix = step.arrive_at_environment(free);
-                    let drawn = scene.lights.pdf_environment(&from, -wo);
-                    let pdf = scene.lights.pdf_emission_environment(-wo, from.p);
-                    let densities = [drawn, pdf.first, pdf.second];
-                    radiance[kind(depth)] += found(&prefix, arrived * light, depth, densities, record);
-                }
-                break;
+        let arrival = flight.fly_to_vertex(world, numbers, Blocks::Camera, &mut number, |passage, at, wo| {
+            if events.holds(depth) {
+                let arrived = Arrived { step: &step, from: &from, beta, passage, depth };
+                radiance[kind(depth)] += meet_lamp(world, &arrived, at, wo, record);
             }
-            Arrival::Medium(p) => {
-                (Vertex::in_medium(world, *p, wo, flight.media), numbers.block(Block::scatter(number)))
+        });
+        let arrived = Arrived { step: &step, from: &from, beta, passage: &flight.passage, depth };
+        let Some((vertex, u)) = arrival else {
+            if events.holds(depth) {
+                radiance[kind(depth)] += meet_environment(world, &arrived, flight.ray.d, record);
             }
-            Arrival::Surface(at) => {
-                let cos = wo.dot(at.n_g).abs();
-                if cos == 0.0 {
-                    break;
-                }
-                let emitter = emitter_hit(at);
-                if events.holds(depth)
-                    && let Some(light) = scene.lights.emitted(&emitter, wo, world.lambda)
-                {
-                    let distance2 = (at.p - from.p).length2();
-                    let prefix = step.arrive(distance2, LanePdf::splat(cos), free);
-                    let drawn = scene.lights.pdf_object(&emitter, &from) * cos / distance2;
-                    let pdf = scene.lights.pdf_emission_object(&emitter, wo);
-                    let densities = [drawn, pdf.first, pdf.second];
-                    radiance[kind(depth)] += found(&prefix, arrived * light, depth, densities, record);
-                }
-                let u = numbers.block(Block::scatter(number));
-                match shade(world, at, wo, &flight.media, u[3]) {
-                    Surface::Scatters(vertex) => (vertex, u),
-                    Surface::Unseen(media) => {
-                        flight.pass(world, at, media);
-                        number += 1;
-                        continue;
-                    }
-                }
-            }
+            break;
         };
         alpha = 1.0;
         if depth == events.most {
             break;
         }
-        let length = flight.length();
-        let prefix = step.arrive(length * length, vertex.reach(wo), free);
-        beta = arrived;
-        if let Some(collision) = vertex.collision() {
-            beta = beta.times(collision);
+        let (length, reach) = (flight.length(), vertex.reach(flight.back()));
+        // Along the surface: such a vertex has no density.
+        if reach.hero() == 0.0 {
+            break;
         }
+        let prefix = step.arrive(length * length, reach, flight.passage.free);
+        beta = flight.arrived(beta, &vertex);
         let lights = numbers.block(Block::light(number));
         if vertex.is_connectable() {
             let end = CameraVertex { vertex: &vertex, beta, prefix: &prefix, depth };
             radiance[kind(depth + 1)] += draw_light(sample, &end, lights, record);
             // Scattered at least once on each side.
-            radiance[1] += join(sample, &light_path.vertices, &end, number, numbers, record);
+            radiance[1] += join(sample, light_path, &end, number, numbers, record);
         }
         if depth >= ROULETTE_FROM {
             let chance = (beta.max_lane() / (prefix.ratio.mean() * expected)).min(1.0);
@@ -181,7 +153,7 @@ fn trace_camera(
         if beta.is_black() {
             break;
         }
-        step = go_on(&prefix, &next, &vertex);
+        step = prefix.step(&next, vertex.reach(next.wi));
         from = vertex.receiver();
         expected /= vertex.compression(world, next.wi);
         flight = vertex.leave(world, next.wi);
@@ -190,9 +162,4 @@ fn trace_camera(
     }
     let [direct, indirect] = radiance;
     PathSample { direct, indirect, alpha }
-}
-
-#[inline]
-fn go_on(prefix: &Prefix, next: &Scattered, vertex: &Vertex) -> Step {
-    prefix.step(next, vertex.reach(next.wi))
 }

@@ -1,0 +1,201 @@
+//! The scenes: a room of diffuse light, a caustic, glossy balls under the sky, and coloured twins of each, whose
+//! errors are to be read in XYZ.
+
+use super::common::scene;
+use super::common::shapes::{Mesh, mesh_light, model};
+use super::common::text::{
+    background, basic, diffuse, flat_camera, grey, medium, scene_file, settings, specular, sphere, uniform,
+};
+use indigo_geom::NoStore;
+use indigo_igs::Limits;
+use indigo_render::disk::DiskResolver;
+use indigo_scene::{LoadOptions, Scene, load};
+use std::fs;
+
+/// A scene to be raced on.
+pub struct BenchScene {
+    pub name: String,
+    pub text: String,
+    /// The mode that makes its reference.
+    pub reference: &'static str,
+    /// A file on disk that it was read from.
+    file: Option<String>,
+}
+
+impl BenchScene {
+    fn new(name: &str, reference: &'static str, parts: &[Vec<String>]) -> Self {
+        Self { name: name.to_owned(), text: scene_file(&parts.concat()), reference, file: None }
+    }
+
+    pub fn load(&self) -> Scene {
+        let Some(file) = &self.file else { return scene(&self.text) };
+        let options = LoadOptions {
+            resolver: &DiskResolver::new(vec![]).for_scene(file),
+            trees: &NoStore,
+            inifile: None,
+            overrides: &[],
+            limits: Limits::default(),
+            check_only: false,
+        };
+        load(file, &options).scene.unwrap_or_else(|| panic!("{file} has errors: see --check"))
+    }
+}
+
+/// A scene of ours, or a file. A file's reference is bidirectional where its settings ask for that.
+pub fn named(name: &str) -> BenchScene {
+    if let Some(found) = all().into_iter().find(|s| s.name == name) {
+        return found;
+    }
+    let text = fs::read_to_string(name).unwrap_or_else(|e| panic!("no scene {name}: {e}"));
+    let is_bidirectional = text.contains("<bidirectional>true");
+    BenchScene {
+        name: name.rsplit(['/', '\\']).next().unwrap_or(name).trim_end_matches(".igs").to_owned(),
+        text,
+        reference: if is_bidirectional { "bidirectional" } else { "path" },
+        file: Some(name.to_owned()),
+    }
+}
+
+/// All scenes of ours.
+pub fn all() -> Vec<BenchScene> {
+    let [white, coloured] = [Paint::grey(), Paint::coloured()];
+    vec![
+        room("room", &white),
+        room("room-coloured", &coloured),
+        caustic("caustic", &white),
+        caustic("caustic-coloured", &coloured),
+        balls("balls", &white),
+        balls("balls-coloured", &coloured),
+    ]
+}
+
+/// What is coloured in a coloured twin.
+struct Paint {
+    left: String,
+    right: String,
+    lamp: fn(f64) -> String,
+    hot: fn(f64) -> String,
+    glass: String,
+}
+
+impl Paint {
+    fn grey() -> Self {
+        let [left, right] = [0.6, 0.3].map(uniform);
+        Self { left, right, lamp: uniform, hot: uniform, glass: uniform(0.0) }
+    }
+
+    /// Saturated walls, daylight, a lamp of nearly one wavelength like sodium's, and green glass.
+    fn coloured() -> Self {
+        Self {
+            left: rgb("0.8 0.03 0.03"),
+            right: rgb("0.03 0.5 0.05"),
+            // Of about the same luminance as the even spectrum.
+            lamp: |value| {
+                format!(
+                    "<blackbody><temperature>6500</temperature><gain>{}</gain></blackbody>",
+                    value * 2.4e-14
+                )
+            },
+            hot: |value| {
+                format!(
+                    "<peak><peak_min>580</peak_min><peak_width>20</peak_width><base_value>{}</base_value>\
+                     <peak_value>{}</peak_value></peak>",
+                    0.02 * value,
+                    5.0 * value
+                )
+            },
+            glass: rgb("4 0.3 3"),
+        }
+    }
+}
+
+fn rgb(triple: &str) -> String {
+    format!("<rgb><rgb>{triple}</rgb><gamma>1</gamma></rgb>")
+}
+
+/// 256 pixels a side, a box filter, at most 15 scattering events.
+fn head(camera: String) -> Vec<String> {
+    let more = "<splat_filter><box/></splat_filter><downsize_filter><box/></downsize_filter><max_depth>15</max_depth>";
+    vec![settings(256, more), camera, grey("black", 0.0), grey("white", 0.6), grey("grey", 0.5)]
+}
+
+fn square(corners: [[f64; 3]; 4], name: &str, material: &str) -> Vec<String> {
+    vec![Mesh::polygon(corners.to_vec()).text(name, material), model(name)]
+}
+
+/// A room of side 2 with a square lamp in the ceiling.
+fn walls(paint: &Paint) -> Vec<String> {
+    let at = |x: f64, y: f64, z: f64| [x, y, z];
+    [
+        vec![diffuse("left", &paint.left), diffuse("right", &paint.right)],
+        square([at(-1., -1., 0.), at(1., -1., 0.), at(1., 1., 0.), at(-1., 1., 0.)], "floor", "grey"),
+        square([at(-1., -1., 2.), at(-1., 1., 2.), at(1., 1., 2.), at(1., -1., 2.)], "ceiling", "white"),
+        square([at(-1., 1., 0.), at(1., 1., 0.), at(1., 1., 2.), at(-1., 1., 2.)], "back", "white"),
+        square([at(-1., -1., 0.), at(-1., 1., 0.), at(-1., 1., 2.), at(-1., -1., 2.)], "left side", "left"),
+        square([at(1., 1., 0.), at(1., -1., 0.), at(1., -1., 2.), at(1., 1., 2.)], "right side", "right"),
+    ]
+    .concat()
+}
+
+/// Just below the ceiling; its front looks down.
+fn lamp(half: f64, spectrum: &str) -> Vec<String> {
+    let z = 1.999;
+    let corners = [[-half, -half, z], [-half, half, z], [half, half, z], [half, -half, z]];
+    let mesh = Mesh::polygon(corners.to_vec()).text("lamp", "black");
+    vec![mesh, mesh_light("lamp", spectrum, [0.0; 3], 1.0, "")]
+}
+
+fn block(name: &str, half: [f64; 2], turn: f64, at: [f64; 2]) -> Vec<String> {
+    let (s, c) = turn.to_radians().sin_cos();
+    let ([x, z], [px, py]) = (half, at);
+    let mesh = Mesh::cube(1.0).placed([x * c, -x * s, 0.0, x * s, x * c, 0.0, 0.0, 0.0, z], 1.0, [px, py, z]);
+    vec![mesh.text(name, "grey"), model(name)]
+}
+
+fn into_the_room() -> String {
+    flat_camera([0.0, -3.8, 1.0], [0.0, 1.0, 0.0], 0.344_327_6)
+}
+
+/// Two blocks in a room with a middling lamp: direct and diffuse indirect light.
+fn room(name: &str, paint: &Paint) -> BenchScene {
+    let parts = [
+        head(into_the_room()),
+        walls(paint),
+        block("tall", [0.3, 0.6], 20.0, [-0.35, 0.3]),
+        block("short", [0.28, 0.28], -18.0, [0.35, -0.3]),
+        lamp(0.25, &(paint.lamp)(137_018.0)),
+    ];
+    BenchScene::new(name, "path", &parts)
+}
+
+/// A ball of glass under a small lamp.
+fn caustic(name: &str, paint: &Paint) -> BenchScene {
+    let parts = [
+        head(into_the_room()),
+        walls(paint),
+        vec![medium("glass", 10, &basic(1.5, &paint.glass, "")), specular("glass", "glass")],
+        vec![sphere([0.25, -0.1, 0.5], 0.45, "glass")],
+        lamp(0.125, &(paint.hot)(548_073.0)),
+    ];
+    BenchScene::new(name, "bidirectional", &parts)
+}
+
+/// Glossy and matt balls under an even sky.
+fn balls(name: &str, paint: &Paint) -> BenchScene {
+    let glossy = |name: &str, exponent: f64| {
+        format!(
+            "<material><name>{name}</name><phong><exponent>{exponent}</exponent><specular_reflectivity_spectrum>{}\
+             </specular_reflectivity_spectrum></phong></material>",
+            uniform(0.891_403)
+        )
+    };
+    let ground = [[-10., -10., 0.], [10., -10., 0.], [10., 10., 0.], [-10., 10., 0.]];
+    let parts = [
+        head(flat_camera([0.0, -8.0, 2.5], [0.0, 0.978_158_851, -0.207_858_756], 0.315_298_9)),
+        vec![glossy("smooth", 198.0), glossy("rough", 20.2222), diffuse("ball", &paint.left)],
+        square(ground, "ground", "grey"),
+        vec![sphere([-1.1, 0.0, 1.0], 1.0, "smooth"), sphere([1.1, 0.0, 1.0], 1.0, "ball")],
+        vec![sphere([0.0, -1.5, 0.5], 0.5, "rough"), background(&(paint.lamp)(13_702.0))],
+    ];
+    BenchScene::new(name, "path", &parts)
+}
