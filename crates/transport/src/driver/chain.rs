@@ -28,6 +28,9 @@ pub(super) struct ChainSample {
     proposal: Blocks,
 }
 
+/// Blocks that a list has room for from its first use on: what nearly all paths need, so that lists hardly ever grow.
+const ROOM: usize = 512;
+
 /// Blocks of numbers; each is in use where its mark is that of the list.
 #[derive(Clone, Debug, Default)]
 struct Blocks {
@@ -50,7 +53,7 @@ impl Blocks {
     fn put(&mut self, i: usize, v: [Real; 4]) {
         if i >= self.values.len() {
             // Mark 0 is never in use.
-            self.values.resize((i + 1).next_power_of_two(), (0, [0.0; 4]));
+            self.values.resize((i + 1).next_power_of_two().max(ROOM), (0, [0.0; 4]));
         }
         self.values[i] = (self.mark, v);
     }
