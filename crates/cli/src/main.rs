@@ -186,7 +186,7 @@ fn settings_listing(loaded: &Loaded) -> String {
 }
 
 fn dump_metadata(path: &str, console: &mut Console) -> u8 {
-    let entries = std::fs::read(path)
+    let entries = indigo_render::disk::read_limited(path.as_ref())
         .map_err(|e| e.to_string())
         .and_then(|bytes| indigo_imaging::png::read_metadata(&bytes).map_err(|e| e.to_string()));
     match entries {

@@ -77,6 +77,10 @@ impl DiskResolver {
 /// # Errors
 /// What the system says, or that the file is too large.
 pub fn read_limited(path: &Path) -> std::io::Result<Vec<u8>> {
+    if !std::fs::metadata(path)?.is_file() {
+        // To open a pipe may wait for ever, and a device may have no end.
+        return Err(std::io::Error::other("not a regular file"));
+    }
     let file = File::open(path)?;
     let length = file.metadata()?.len();
     if length > DiskResolver::DEFAULT_LIMIT {
@@ -145,7 +149,7 @@ impl DiskTreeStore {
 
 impl TreeStore for DiskTreeStore {
     fn load(&self, key: &[u8; 32]) -> Option<Vec<u8>> {
-        std::fs::read(self.path(key)).ok()
+        read_limited(&self.path(key)).ok()
     }
 
     fn store(&self, key: &[u8; 32], bytes: &[u8]) {

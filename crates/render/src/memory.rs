@@ -1,6 +1,7 @@
 //! How much memory a render will surely need, and whether it is there.
 
 use indigo_film::{FilmSize, LayerKind, MasterFilm};
+use std::path::{Path, PathBuf};
 
 /// What developing a film holds for each internal pixel: XYZ and alpha in single precision, and whether there
 /// is a sample.
@@ -16,9 +17,21 @@ pub(crate) fn needed(size: FilmSize, kinds: impl IntoIterator<Item = LayerKind>,
 /// processes that this one is in.
 pub(crate) fn available() -> Option<u64> {
     let system = std::fs::read_to_string("/proc/meminfo").ok().and_then(|text| available_of(&text));
-    let group =
-        std::fs::read_to_string("/sys/fs/cgroup/memory.max").ok().and_then(|text| text.trim().parse().ok());
-    [system, group].into_iter().flatten().min()
+    [system, group_available()].into_iter().flatten().min()
+}
+
+/// What the group of this process, and every group round it, may still take.
+fn group_available() -> Option<u64> {
+    let groups = std::fs::read_to_string("/proc/self/cgroup").ok()?;
+    let own = groups.lines().find_map(|line| line.strip_prefix("0::/"))?;
+    let folder = Path::new("/sys/fs/cgroup").join(own);
+    let number = |path: PathBuf| std::fs::read_to_string(path).ok()?.trim().parse::<u64>().ok();
+    let left = |group: &Path| {
+        // Without a limit it says `max`.
+        let limit = number(group.join("memory.max"))?;
+        Some(limit.saturating_sub(number(group.join("memory.current")).unwrap_or(0)))
+    };
+    folder.ancestors().take_while(|group| group.starts_with("/sys/fs/cgroup")).filter_map(left).min()
 }
 
 /// The line `MemAvailable:  123 kB`.

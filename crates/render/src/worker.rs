@@ -88,11 +88,16 @@ pub(crate) fn work(shared: &Shared) {
             break;
         }
         let film = shared.film_of(unit);
-        let Some(samples) = render_unit(shared, unit, &mut tracer, &mut deltas[film]) else { break };
-        shared.samples.fetch_add(samples, Ordering::Relaxed);
+        let samples = render_unit(shared, unit, &mut tracer, &mut deltas[film]);
+        shared.samples.fetch_add(samples.unwrap_or(0), Ordering::Relaxed);
         if let Some(ordered) = &shared.ordered {
+            // Also what a unit that failed has done: those after it wait for it.
             ordered.hand_over(&shared.films, unit, film, deltas[film].take());
-        } else {
+        }
+        if samples.is_none() {
+            break;
+        }
+        if shared.ordered.is_none() {
             let epoch = shared.epoch.load(Ordering::Relaxed);
             if epoch != seen_epoch {
                 seen_epoch = epoch;

@@ -178,15 +178,17 @@ fn dropping_a_session_ends_its_threads() {
 fn a_failure_leaves_what_was_done_before_it() {
     let mut broken = broken_scene(96, "1.5 4 -1.5", "0.3");
     broken.textures.clear();
-    let halt =
-        Options { halt: ENDLESS, deterministic: false, epoch: Duration::from_hours(1), ..options(1, 0) };
-    let (film, reason, progress) = run(&Arc::new(broken), &halt);
-    assert!(matches!(reason, HaltReason::Failed(_)), "{reason:?}");
-    assert_eq!(progress.samples, 8 * 32 * 32);
-    let counted = film.layers[0].totals.n_samples;
-    // With those of the ninth tile before the sphere.
-    assert!(counted >= progress.samples as f64 && counted < 9.0 * 32.0 * 32.0, "{counted}");
-    assert_eq!(film.layers[0].counts.iter().sum::<f64>(), counted);
+    let broken = Arc::new(broken);
+    for deterministic in [false, true] {
+        let halt = Options { halt: ENDLESS, deterministic, epoch: Duration::from_hours(1), ..options(1, 0) };
+        let (film, reason, progress) = run(&broken, &halt);
+        assert!(matches!(reason, HaltReason::Failed(_)), "{reason:?}");
+        assert_eq!(progress.samples, 8 * 32 * 32);
+        let counted = film.layers[0].totals.n_samples;
+        // With those of the ninth tile before the sphere.
+        assert!(counted > progress.samples as f64 && counted < 9.0 * 32.0 * 32.0, "{counted}");
+        assert_eq!(film.layers[0].counts.iter().sum::<f64>(), counted);
+    }
 }
 
 /// A sphere whose texture is in a file, before a background.
