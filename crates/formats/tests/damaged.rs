@@ -4,12 +4,10 @@
 //! a file at their peak, and 1 MiB besides; a compressed .igmesh may also use a decompression window of 8 MiB and
 //! what it unpacks to.
 
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
-
 use common::{check_answer, samples};
 use indigo_formats::MeshFormat;
 use indigo_fuzz::{Rng, damage};
+use indigo_testkit::allocation::{Counting, peak_of};
 use proptest::prelude::*;
 
 mod common;
@@ -18,46 +16,12 @@ const PER_BYTE: usize = 64;
 const ALLOWANCE: usize = 1 << 20;
 const WINDOW: usize = 12 << 20;
 
-thread_local! {
-    static HELD: Cell<isize> = const { Cell::new(0) };
-    static PEAK: Cell<isize> = const { Cell::new(0) };
-}
-
-struct Counting;
-
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-fn count(change: isize) {
-    // Threads that are ending have no counters left.
-    let _ = HELD.try_with(|held| {
-        held.set(held.get() + change);
-        let _ = PEAK.try_with(|peak| peak.set(peak.get().max(held.get())));
-    });
-}
-
-// SAFETY: every call goes to the system's allocator unchanged; counting allocates nothing.
-#[allow(unsafe_code)]
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        count(layout.size() as isize);
-        // SAFETY: as the caller promised.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        count(-(layout.size() as isize));
-        // SAFETY: as the caller promised.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
-
 /// Reads and checks the answer and the memory that it took.
 fn read_within_bounds(kind: MeshFormat, bytes: &[u8]) -> bool {
-    let before = HELD.get();
-    PEAK.set(before);
-    let answer = kind.read(bytes);
-    let peak = (PEAK.get() - before) as usize;
+    let (answer, peak) = peak_of(|| kind.read(bytes));
     let compressed = kind == MeshFormat::Igmesh && bytes.get(4..12) == Some(&[4, 0, 0, 0, 1, 0, 0, 0]);
     let allowed = PER_BYTE * bytes.len() + ALLOWANCE + if compressed { WINDOW } else { 0 };
     assert!(peak <= allowed, "{peak} bytes for a file of {} bytes: {answer:?}", bytes.len());

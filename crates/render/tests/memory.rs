@@ -12,41 +12,11 @@ use common::text::{
 };
 use indigo_film::FilmState;
 use indigo_scene::{MetropolisSettings, Scene};
+use indigo_testkit::allocation::{Counting, calls, held};
 use indigo_transport::driver::Driver;
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
-
-thread_local! {
-    static CALLS: Cell<u64> = const { Cell::new(0) };
-    static HELD: Cell<isize> = const { Cell::new(0) };
-}
-
-struct Counting;
 
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
-
-fn count(change: isize) {
-    // Threads that are ending have no counters left.
-    let _ = CALLS.try_with(|calls| calls.set(calls.get() + 1));
-    let _ = HELD.try_with(|held| held.set(held.get() + change));
-}
-
-// SAFETY: every call goes to the system's allocator unchanged; counting allocates nothing.
-#[allow(unsafe_code)]
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        count(layout.size() as isize);
-        // SAFETY: as the caller promised.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        count(-(layout.size() as isize));
-        // SAFETY: as the caller promised.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
 
 /// A room with a ball of glass, one of fog and a lamp: paths of every kind.
 fn room(side: u32) -> Scene {
@@ -105,15 +75,15 @@ fn no_sample_allocates() {
         for unit in 0..FIRST_UNITS {
             driver.render_unit(scene, unit, &mut tracer, &mut delta);
         }
-        let before = CALLS.get();
+        let before = calls();
         let units = FIRST_UNITS..FIRST_UNITS + WATCHED_UNITS;
         let samples: u64 = units.map(|unit| driver.render_unit(scene, unit, &mut tracer, &mut delta)).sum();
-        let calls = CALLS.get() - before;
+        let made = calls() - before;
         assert!(samples > 5_000, "{mode}: {samples} samples are not many");
         // A chain goes on to longer paths than it has had, now and then: its lists double to the longest yet. Without
         // chains that luck is the seed's, and stays as it is.
         let growth = if scene.transport.metropolis.is_some() { samples / 1000 } else { 0 };
-        assert!(calls <= growth, "{mode}: {calls} allocations in {samples} samples");
+        assert!(made <= growth, "{mode}: {made} allocations in {samples} samples");
     });
 }
 
@@ -124,15 +94,15 @@ fn a_thread_takes_less_than_a_film_and_a_quarter() {
         let driver = Driver::new(scene, 5);
         let film = FilmState::new(scene.film.size, driver.layers());
         let size = film.memory_bytes() as isize;
-        let before = HELD.get();
+        let before = held();
         let (mut delta, mut tracer) = (film.delta(), driver.tracer());
         for unit in 0..driver.units(1) {
             driver.render_unit(scene, unit, &mut tracer, &mut delta);
         }
         // Metropolis chains are shared by all threads: what is still held without the worker is theirs.
-        let held = HELD.get() - before;
+        let all = held() - before;
         drop((delta, tracer));
-        let own = held - (HELD.get() - before);
+        let own = all - (held() - before);
         assert!(own > size / 20, "{mode}: {own} bytes beside {size} are too few to be true");
         assert!(4 * own < 5 * size, "{mode}: {own} bytes for a thread beside {size} for the film");
     });

@@ -10,11 +10,13 @@
 //! - [`zgrid`]: do two noisy images agree, block by block?
 //! - [`quadrature`]: deterministic integrals to compare with.
 //! - [`image`]: error measures and difference maps.
+//! - [`allocation`]: what does it ask of the heap?
 //! - [`stats`], [`special`], [`rng`]: what the above stand on.
 //!
 //! Everything takes closures and plain numbers, works in `f64` and depends on no other crate. Nothing
-//! here reads a file, a clock or a global; a seed determines each result.
+//! here reads a file or a clock, nor, but for the counts of [`allocation`], a global; a seed determines each result.
 
+pub mod allocation;
 pub mod chi2;
 mod domain;
 pub mod image;
