@@ -12,16 +12,20 @@ use std::f64::consts::PI;
 /// The surroundings of a scene.
 ///
 /// A direction is drawn by one of the lights; its density is the mixture of all of theirs. Light enters
-/// the scene through a disc as wide as the scene, across its direction. Where there are portals it enters
-/// through them, and a part of the draws for a receiver is left to them: that of each light which it
-/// states ([`Distant::portal_share`]).
+/// the scene through a disc as wide as the scene, across its direction. Receivers draw the lights that are to
+/// be drawn alone ([`Distant::is_drawn`]). Where there are portals light enters through them, receivers draw
+/// all lights, and a part of the draws is left to the portals: that of each light which it states
+/// ([`Distant::portal_share`]).
 ///
 /// Portals change what is drawn, not what there is: light that comes by another way is found by scattering
 /// alone, and counts in full.
 #[derive(Clone, Debug)]
 pub(crate) struct Environment {
     lights: Vec<DistantLight>,
-    choice: AliasTable,
+    /// Which light enters the scene.
+    entering: AliasTable,
+    /// Which light is drawn for a receiver; empty where none is.
+    drawn: AliasTable,
     /// A sphere round everything that the environment can light.
     center: Vec3,
     radius: Real,
@@ -43,8 +47,18 @@ impl Environment {
         // hidden, the others are all there is.
         let weight = |total: &f64| if sum > 0.0 { total / sum } else { 0.0 } + 1.0 / totals.len() as f64;
         let weights: Vec<f64> = totals.iter().map(weight).collect();
+        let drawn = |(light, weight): (&DistantLight, &f64)| match &portals {
+            None if !light.is_drawn() => 0.0,
+            _ => *weight,
+        };
+        let drawn: Vec<f64> = lights.iter().zip(&weights).map(drawn).collect();
         let mut environment = Self {
-            choice: AliasTable::new(&weights),
+            entering: AliasTable::new(&weights),
+            drawn: if drawn.iter().any(|&w| w > 0.0) {
+                AliasTable::new(&drawn)
+            } else {
+                AliasTable::default()
+            },
             lights,
             center: center.cast(),
             radius: radius_m as Real,
@@ -52,7 +66,7 @@ impl Environment {
             portal_chance: 0.0,
         };
         let shares =
-            (0..environment.lights.len()).map(|i| environment.choice.probability(i) * environment.share(i));
+            (0..environment.drawn.len()).map(|i| environment.drawn.probability(i) * environment.share(i));
         environment.portal_chance = shares.sum();
         environment
     }
@@ -75,6 +89,11 @@ impl Environment {
         self.lights.iter().map(Distant::total_luminance).sum::<f64>() * across
     }
 
+    /// Whether receivers draw any of its lights.
+    pub fn is_drawn(&self) -> bool {
+        !self.drawn.is_empty()
+    }
+
     /// Radiance from a direction.
     #[inline]
     pub fn radiance(&self, towards: Vec3, lambda: &SampledWavelengths) -> SampledSpectrum {
@@ -87,10 +106,10 @@ impl Environment {
         if self.portals.is_some() { self.lights[light].portal_share() } else { 0.0 }
     }
 
-    /// A direction of light for a receiver.
+    /// A direction of light for a receiver, where there is light that is drawn.
     #[inline]
     pub fn sample(&self, to: &Receiver, choice: f64, at: [Real; 2]) -> Option<Vec3> {
-        let (i, _, rest) = self.choice.sample(choice);
+        let (i, _, rest) = self.drawn.sample(choice);
         let share = self.share(i).to_f64();
         match &self.portals {
             Some(portals) if rest < share => portals.sample_direction(to.p, rest / share, at),
@@ -102,7 +121,7 @@ impl Environment {
     #[inline]
     pub fn pdf(&self, to: &Receiver, towards: Vec3) -> Real {
         let own = |i: usize| {
-            let part = self.choice.probability(i) * (1.0 - self.share(i));
+            let part = self.drawn.probability(i) * (1.0 - self.share(i));
             if part > 0.0 { part * self.lights[i].pdf(to.n, towards) } else { 0.0 }
         };
         let through = self.portals.as_ref().map_or(0.0, |portals| {
@@ -112,13 +131,13 @@ impl Environment {
                 0.0
             }
         });
-        (0..self.lights.len()).map(own).sum::<Real>() + through
+        (0..self.drawn.len()).map(own).sum::<Real>() + through
     }
 
     /// A direction towards the light, and a point beyond the scene where the light enters.
     #[inline]
     pub fn sample_emission(&self, choice: f64, at: [Real; 2], v: [Real; 2]) -> Option<(Vec3, Vec3)> {
-        let (i, _, rest) = self.choice.sample(choice);
+        let (i, _, rest) = self.entering.sample(choice);
         let towards = self.lights[i].sample(Vec3::ZERO, at)?;
         let Some(portals) = &self.portals else {
             let disk = concentric_disk(v.into()) * self.radius;
@@ -138,8 +157,9 @@ impl Environment {
     /// Densities of [`sample_emission`](Self::sample_emission) for light from a direction through a point.
     #[inline]
     pub fn pdf_emission(&self, towards: Vec3, through: Vec3) -> EmissionPdf {
-        let part =
-            |(i, light): (usize, &DistantLight)| self.choice.probability(i) * light.pdf(Vec3::ZERO, towards);
+        let part = |(i, light): (usize, &DistantLight)| {
+            self.entering.probability(i) * light.pdf(Vec3::ZERO, towards)
+        };
         let second = match &self.portals {
             None => INV_PI / (self.radius * self.radius),
             Some(portals) => portals.pdf_line(through, towards),

@@ -1,4 +1,8 @@
 //! All lights of a scene: choosing one, drawing light from it, and the density of having done so.
+//!
+//! Lamps are chosen by their power. The environment's power grows with the scene's extent, and says nothing of what
+//! gets to a receiver, least of all in a room: beside lamps it is drawn for every other receiver, and between a
+//! quarter and three quarters of all light paths start from it. So neither can take the other's draws.
 
 use crate::area::AreaLight;
 use crate::environment::Environment;
@@ -14,13 +18,24 @@ use indigo_spectrum::{SampledSpectrum, SampledWavelengths};
 pub struct LightTable {
     lamps: Vec<AreaLight>,
     environment: Option<Environment>,
-    /// Over the lamps, and the environment after them.
+    /// Of light that leaves lamps or enters the scene: over the lamps by power, and the environment after them.
     by_power: AliasTable,
+    /// Of light that is drawn for receivers: the same, but without the environment where none of it is drawn.
+    for_receivers: AliasTable,
     /// For each object of the scene the lamp that it is, or [`NO_LAMP`].
     of_object: Vec<u32>,
 }
 
 const NO_LAMP: u32 = u32::MAX;
+
+/// A choice among lamps by power, and the environment after them, if there is one, which has some share of all.
+fn with_environment(powers: &[f64], share: Option<f64>) -> AliasTable {
+    let Some(share) = share else { return AliasTable::new(powers) };
+    let total: f64 = powers.iter().sum();
+    // Lamps that are all black leave everything to the environment.
+    let environment = if total > 0.0 && total.is_finite() { total * share / (1.0 - share) } else { 1.0 };
+    AliasTable::new(&powers.iter().copied().chain([environment]).collect::<Vec<f64>>())
+}
 
 impl LightTable {
     /// From lamps and distant lights, the lamp that each object is, and the centre and radius in
@@ -43,9 +58,15 @@ impl LightTable {
         portals: Option<Portals>,
     ) -> Self {
         let environment = (!distant.is_empty()).then(|| Environment::new(distant, sphere, portals));
-        let powers = lamps.iter().map(AreaLight::flux).chain(environment.as_ref().map(Environment::flux));
+        let powers: Vec<f64> = lamps.iter().map(AreaLight::flux).collect();
+        let choice = |environment_share: Option<f64>| with_environment(&powers, environment_share);
+        let share = |e: &Environment| {
+            let total = powers.iter().sum::<f64>() + e.flux();
+            0.25 + if total > 0.0 && total.is_finite() { 0.5 * e.flux() / total } else { 0.25 }
+        };
         Self {
-            by_power: AliasTable::new(&powers.collect::<Vec<f64>>()),
+            by_power: choice(environment.as_ref().map(share)),
+            for_receivers: choice(environment.as_ref().and_then(|e| e.is_drawn().then_some(0.5))),
             of_object: object_lamps.map(|l| l.unwrap_or(NO_LAMP)).collect(),
             lamps,
             environment,
@@ -73,20 +94,20 @@ impl LightTable {
         (i != NO_LAMP).then(|| (i as usize, &self.lamps[i as usize]))
     }
 
-    /// Probability of choosing the environment.
+    /// Probability of choosing the environment, of one of the tables.
     #[inline]
-    fn environment_chance(&self) -> Real {
-        self.by_power.probability(self.lamps.len())
+    fn environment_chance(&self, table: &AliasTable) -> Real {
+        if table.len() > self.lamps.len() { table.probability(self.lamps.len()) } else { 0.0 }
     }
 
     /// Draws light towards a receiver: `u` chooses a light, a point on it or a direction towards it (two
     /// numbers), and the choice's further digits ([`refined`]).
     #[inline]
     pub fn sample(&self, to: &Receiver, u: [Real; 4], lambda: &SampledWavelengths) -> Option<LightSample> {
-        if self.by_power.is_empty() {
+        if self.for_receivers.is_empty() {
             return None;
         }
-        let (i, chance, rest) = self.by_power.sample(refined(u[0], u[3]));
+        let (i, chance, rest) = self.for_receivers.sample(refined(u[0], u[3]));
         let at = [u[1], u[2]];
         let Some(lamp) = self.lamps.get(i) else {
             return self.sample_environment(to, rest, at, lambda);
@@ -104,13 +125,13 @@ impl LightTable {
         if cos <= 0.0 || distance2 == 0.0 {
             return None;
         }
-        let over_area = chance * lamp.pdf_point(point.triangle, point.bary);
+        let over_area = lamp.pdf_point(point.triangle, point.bary);
         Some(LightSample {
             wi,
             radiance: lamp.emitted(point.triangle, point.bary, -wi, lambda),
-            pdf: over_area * distance2 / cos,
+            pdf: chance * over_area * distance2 / cos,
             pdf_emission: EmissionPdf {
-                first: over_area,
+                first: self.by_power.probability(i) * over_area,
                 second: lamp.pdf_direction(point.triangle, front, -wi),
             },
             point: Some(point),
@@ -162,7 +183,7 @@ impl LightTable {
         if cos.is_nan() || cos <= 0.0 {
             return 0.0;
         }
-        self.by_power.probability(i) * lamp.pdf_point(hit.triangle, hit.bary) * distance2 / cos
+        self.for_receivers.probability(i) * lamp.pdf_point(hit.triangle, hit.bary) * distance2 / cos
     }
 
     /// Densities with which [`sample_emission`](Self::sample_emission) draws light that leaves a point
@@ -185,7 +206,11 @@ impl LightTable {
     /// Density (1/sr) with which [`sample`](Self::sample) draws a direction of the environment.
     #[inline]
     pub fn pdf_environment(&self, to: &Receiver, wi: Vec3) -> Real {
-        self.environment.as_ref().map_or(0.0, |e| self.environment_chance() * e.pdf(to, wi))
+        let chance = self.environment_chance(&self.for_receivers);
+        match &self.environment {
+            Some(environment) if chance > 0.0 => chance * environment.pdf(to, wi),
+            _ => 0.0,
+        }
     }
 
     /// Densities with which [`sample_emission`](Self::sample_emission) draws light from a direction of
@@ -194,7 +219,7 @@ impl LightTable {
     pub fn pdf_emission_environment(&self, towards: Vec3, through: Vec3) -> EmissionPdf {
         let Some(environment) = &self.environment else { return EmissionPdf::NEVER };
         let pdf = environment.pdf_emission(towards, through);
-        EmissionPdf { first: self.environment_chance() * pdf.first, ..pdf }
+        EmissionPdf { first: self.environment_chance(&self.by_power) * pdf.first, ..pdf }
     }
 
     /// Draws light that leaves a lamp or enters the scene: `u` as for [`sample`](Self::sample), `v`
@@ -261,6 +286,6 @@ impl LightTable {
     pub fn pdf_sample_of(&self, emission: &Emission, to: &Receiver) -> Real {
         let Some(point) = &emission.point else { return self.pdf_environment(to, -emission.direction) };
         let lamp = &self.lamps[emission.lamp as usize];
-        self.by_power.probability(emission.lamp as usize) * lamp.pdf_point(point.triangle, point.bary)
+        self.for_receivers.probability(emission.lamp as usize) * lamp.pdf_point(point.triangle, point.bary)
     }
 }

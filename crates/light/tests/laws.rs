@@ -3,7 +3,10 @@
 //! Statistical tests share a false-alarm probability of 1e-4; seeds are fixed.
 
 use indigo_light::kinds::background::Background;
-use indigo_light::{AreaLight, Distant, DistantLight, EmitterHit, LightSample, LightTable, Receiver};
+use indigo_light::kinds::env_map::{EnvMap, Layout};
+use indigo_light::{
+    AreaLight, Distant, DistantLight, EmitterHit, LightSample, LightTable, Portals, Receiver,
+};
 use indigo_math::{Real, Vec3, Vec3d};
 use indigo_spectrum::{SampledWavelengths, Spectrum};
 use indigo_testkit::chi2::{Chi2, Domain};
@@ -81,10 +84,16 @@ const SKY: f64 = 0.8;
 
 fn table(with_sky: bool) -> LightTable {
     let lamps: Vec<AreaLight> = squares().iter().map(Square::light).collect();
-    let sky = || Background(Spectrum::uniform(SKY)).into();
+    // As even as a background, but drawn.
+    let sky = || EnvMap::new(Layout::LatLong, 32, 16, vec![[SKY as f32; 3]; 512]).into();
     // Objects: one that is no light, then the squares.
     let numbers = [None, Some(0), Some(1), Some(2)];
     LightTable::new(lamps, with_sky.then(sky).into_iter().collect(), numbers.into_iter(), (Vec3d::ZERO, 2.0))
+}
+
+/// The sky's radiance at the hero wavelength, the same from everywhere.
+fn sky(table: &LightTable) -> f64 {
+    table.environment(N, &wavelengths()).expect("a sky").hero() as f64
 }
 
 fn wavelengths() -> SampledWavelengths {
@@ -136,7 +145,8 @@ fn a_draw_reports_its_light_and_its_density() {
         let d: Vec3d = s.wi.cast();
         let Some(point) = s.point else {
             let expected = table.pdf_environment(&Receiver::facing(P, N), s.wi);
-            assert!((s.pdf - expected).abs() <= 1e-5 * expected && s.radiance.hero() == SKY as Real);
+            assert!((s.pdf - expected).abs() <= 1e-5 * expected);
+            assert!((s.radiance.hero() - sky(&table) as Real).abs() < 1e-4);
             continue;
         };
         let hit = squares
@@ -168,7 +178,7 @@ fn drawn_light_estimates_the_irradiance() {
                 hemisphere(1e-3, radiance).value
             })
             .sum::<f64>()
-            + if with_sky { std::f64::consts::PI * SKY } else { 0.0 };
+            + if with_sky { std::f64::consts::PI * sky(&table) } else { 0.0 };
         let mut rng = Rng::new(5);
         // Light from below the horizon does not count.
         let estimates = Moments::of((0..400_000).map(|_| {
@@ -178,6 +188,62 @@ fn drawn_light_estimates_the_irradiance() {
         // The quadrature of squares' edges is good to a few parts in 10,000.
         let test: MeanTest = welch(&estimates, &Moments::exact(integral), 5e-4 * integral).at(3e-5);
         assert!(test.passed() && test.std_error < 3e-3 * integral, "with sky {with_sky}: {test}");
+    }
+}
+
+/// An even background is left to scattering: receivers draw lamps alone, but for portals. It still enters the
+/// scene.
+#[test]
+fn a_background_is_drawn_through_portals_alone() {
+    let to = Receiver::facing(P, N);
+    let corner = |x: f64, y: f64| Vec3d::new(x, y, 1.0);
+    // Its front looks down, into the interior.
+    let opening = [[corner(-1.0, -1.0), corner(-1.0, 1.0), corner(1.0, -1.0)]];
+    let surroundings = |portals, lamps| {
+        let sky = vec![Background(Spectrum::uniform(SKY)).into()];
+        LightTable::with_portals(lamps, sky, [Some(0)].into_iter(), (Vec3d::ZERO, 2.0), portals)
+    };
+    let alone = surroundings(None, vec![]);
+    assert!(alone.sample(&to, [0.5; 4], &wavelengths()).is_none() && alone.pdf_environment(&to, N) == 0.0);
+    assert!(alone.sample_emission([0.5; 4], [0.5; 2], &wavelengths()).is_some());
+    assert!(alone.pdf_emission_environment(N, P).first > 0.0);
+    let beside_a_lamp = surroundings(None, vec![squares()[1].light()]);
+    assert_eq!(beside_a_lamp.pdf_environment(&to, N), 0.0);
+    let mut rng = Rng::new(6);
+    for sample in (0..100).filter_map(|_| draw(&beside_a_lamp, &mut rng)) {
+        // It is always the lamp, whose light leaves it less often than the sky's enters.
+        let at = sample.point.expect("the lamp");
+        let hit = EmitterHit { object: 0, triangle: at.triangle, bary: at.bary, p: at.p, n: at.n };
+        assert!((sample.pdf / beside_a_lamp.pdf_object(&hit, &to) - 1.0).abs() < 1e-4);
+        let emission = beside_a_lamp.pdf_emission_object(&hit, -sample.wi);
+        assert!((sample.pdf_emission.first / emission.first - 1.0).abs() < 1e-5);
+        assert!(emission.first < 0.9 * sample.pdf * -sample.wi.dot(at.n) / (at.p - P).length2());
+    }
+    let open = surroundings(Portals::new(&opening), vec![]);
+    assert!(open.pdf_environment(&to, Vec3::new(-0.1, -0.1, 1.0).normalized()) > 0.0);
+    assert!((0..100).any(|_| draw(&open, &mut rng).is_some()));
+}
+
+/// However wide the scene and however dark or bright the sky: neither lamps nor sky starve beside the other.
+#[test]
+fn lamps_and_environment_share_the_draws() {
+    let to = Receiver::facing(P, N);
+    for (radius, value) in [(1.0, 1e-6), (1e5, 1e-6), (1.0, 1e6), (1e5, 1e6), (1.0, 0.0)] {
+        let sky = EnvMap::new(Layout::LatLong, 2, 1, vec![[value; 3]; 2]).into();
+        let lamp = squares()[1].light();
+        let table = LightTable::new(vec![lamp], vec![sky], [Some(0)].into_iter(), (Vec3d::ZERO, radius));
+        let mut rng = Rng::new(7);
+        let mut lamps = [0; 2];
+        for _ in 0..1000 {
+            let [a, b, c, d, e, f] = [0; 6].map(|_| rng.uniform_f32() as Real);
+            let drawn = table.sample(&to, [a, b, c, d], &wavelengths());
+            lamps[0] += u32::from(drawn.is_some_and(|s| s.point.is_some()));
+            let sent = table.sample_emission([a, b, c, d], [e, f], &wavelengths());
+            lamps[1] += u32::from(sent.is_some_and(|s| s.point.is_some()));
+        }
+        // Of 1000, the first is 500 and the second between 250 and 750, each within 5 standard deviations.
+        assert!(lamps[0].abs_diff(500) < 80, "{radius} m, {value}: {lamps:?}");
+        assert!((180..=820).contains(&lamps[1]), "{radius} m, {value}: {lamps:?}");
     }
 }
 

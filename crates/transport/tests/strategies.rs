@@ -8,9 +8,9 @@
 mod common;
 
 use common::judge::assert_same;
-use common::scene;
 use common::shapes::{Mesh, mesh_light, model};
-use common::text::{background, flat_camera, grey, null, scene_file, settings, uniform};
+use common::text::{flat_camera, grey, null, scene_file, settings, uniform};
+use common::{scene, scene_with};
 use indigo_camera::CameraRay;
 use indigo_film::Sensor;
 use indigo_geom::{Ray, SurfacePoint, offset_origin};
@@ -143,7 +143,7 @@ fn measure(scene: &Scene) -> [Moments; 3] {
 }
 
 fn assert_one_expectation(what: &str, text: &str) {
-    let [drawn, found, weighted] = measure(&scene(text));
+    let [drawn, found, weighted] = measure(&scene_with(text, [("sky.float", sky_file())]));
     assert!(
         weighted.mean() > 0.0 && weighted.std_error() < 1e-2 * weighted.mean(),
         "{what}: nothing is seen"
@@ -180,19 +180,36 @@ fn a_large_and_near_rectangle() {
     assert_one_expectation("rectangle", &over_floor(&[rectangle("0 0 0.6", 2.0, 1e5)]));
 }
 
+/// Texels of a side of the sky.
+const SKY: usize = 8;
+
+/// A sky that is brighter in the middle and has some bright texels: a background would not be drawn.
+fn sky_file() -> Vec<u8> {
+    let value = |i: usize| {
+        let from_middle = (i % SKY).abs_diff(SKY / 2) + (i / SKY).abs_diff(SKY / 2);
+        if i % 7 == 0 { 9.0f32 } else { 4.0 / (1.0 + from_middle as f32) }
+    };
+    (0..SKY * SKY).flat_map(|i| [value(i); 3]).flat_map(f32::to_le_bytes).collect()
+}
+
+fn sky(gain: f64) -> String {
+    format!(
+        "<env_map><spherical><path>sky.float</path><width>{SKY}</width><gain>{gain}</gain></spherical></env_map>"
+    )
+}
+
 #[test]
 fn the_sky_with_something_in_the_way() {
     let ball =
         "<sphere><center>0 0 0.5</center><radius>0.5</radius><material_name>grey</material_name></sphere>";
-    assert_one_expectation("sky", &over_floor(&[background(&uniform(1e5)), ball.to_owned()]));
+    assert_one_expectation("sky", &over_floor(&[sky(1e5), ball.to_owned()]));
 }
 
 #[test]
 fn lights_of_several_kinds_at_once() {
     let ball =
         Mesh::ball(2).text("ball", "grey") + &mesh_light("ball", &uniform(5e5), [0.5, 0.0, 0.8], 0.5, "");
-    let lamps =
-        [background(&uniform(2e4)), rectangle("-1 0 1", 1.0, 2e5), rectangle("1 1.5 2", 0.7, 1e5), ball];
+    let lamps = [sky(2e4), rectangle("-1 0 1", 1.0, 2e5), rectangle("1 1.5 2", 0.7, 1e5), ball];
     assert_one_expectation("several lights", &over_floor(&lamps));
 }
 

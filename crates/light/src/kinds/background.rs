@@ -56,6 +56,10 @@ impl Distant for Background {
         4.0 * std::f64::consts::PI * self.0.luminance()
     }
 
+    fn is_drawn(&self) -> bool {
+        false
+    }
+
     #[inline]
     fn portal_share(&self) -> Real {
         1.0

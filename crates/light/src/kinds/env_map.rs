@@ -213,6 +213,10 @@ impl Distant for EnvMap {
         self.total_luminance
     }
 
+    fn is_drawn(&self) -> bool {
+        true
+    }
+
     #[inline]
     fn portal_share(&self) -> Real {
         0.5

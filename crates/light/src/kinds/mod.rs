@@ -34,6 +34,11 @@ pub trait Distant {
     /// Luminance integrated over all directions, cd sr/m²: what a small ball's surface gets of it, times 4.
     fn total_luminance(&self) -> f64;
 
+    /// Whether receivers draw directions of it, where there are no portals. An even light is better found by
+    /// scattering, which knows the surface: of the multiple importance sampling of both, the light's draws are
+    /// what is to be left out (Karlik et al. 2019, "MIS Compensation", section 4, for a radiance that is all mean).
+    fn is_drawn(&self) -> bool;
+
     /// The part of the draws for a receiver that is left to the portals of a scene, if it has any: all of them
     /// for an even light, none where all of it comes from one direction.
     fn portal_share(&self) -> Real;
@@ -88,6 +93,12 @@ macro_rules! distant_lights {
             fn total_luminance(&self) -> f64 {
                 match self {
                     $(Self::$light(l) => l.total_luminance(),)*
+                }
+            }
+
+            fn is_drawn(&self) -> bool {
+                match self {
+                    $(Self::$light(l) => l.is_drawn(),)*
                 }
             }
 

@@ -127,6 +127,10 @@ impl Distant for Sky {
         self.total_luminance
     }
 
+    fn is_drawn(&self) -> bool {
+        true
+    }
+
     #[inline]
     fn portal_share(&self) -> Real {
         1.0

@@ -96,6 +96,10 @@ impl Distant for Sun {
         self.total_luminance.to_f64()
     }
 
+    fn is_drawn(&self) -> bool {
+        true
+    }
+
     #[inline]
     fn portal_share(&self) -> Real {
         0.0
