@@ -187,7 +187,7 @@ const SKY: usize = 8;
 fn sky_file() -> Vec<u8> {
     let value = |i: usize| {
         let from_middle = (i % SKY).abs_diff(SKY / 2) + (i / SKY).abs_diff(SKY / 2);
-        if i % 7 == 0 { 9.0f32 } else { 4.0 / (1.0 + from_middle as f32) }
+        if i.is_multiple_of(7) { 9.0f32 } else { 4.0 / (1.0 + from_middle as f32) }
     };
     (0..SKY * SKY).flat_map(|i| [value(i); 3]).flat_map(f32::to_le_bytes).collect()
 }
