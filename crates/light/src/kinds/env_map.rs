@@ -155,11 +155,8 @@ impl EnvMap {
             fill_outside(width, height, &mut texels);
         }
         let luminances: Vec<f32> = texels.iter().map(|t| luminance(*t) as f32).collect();
-        let cells = (0..width * height).map(|i| {
-            let cell = Cell { layout, width, height, column: i % width, row: i / width };
-            cell.integral(|at| bilinear(width, height, at, |k| f64::from(luminances[k])))
-        });
-        let weights: Vec<f64> = cells.collect();
+        let light = |at| bilinear(width, height, at, |k| f64::from(luminances[k]));
+        let weights: Vec<f64> = Cell::all(layout, width, height).map(|cell| cell.integral(light)).collect();
         Self {
             total_luminance: weights.iter().sum::<f64>() * Spectrum::uniform(1.0).luminance(),
             directions: GridDistribution::new(width, height, &weights),
@@ -171,6 +168,17 @@ impl EnvMap {
         }
     }
 
+    /// The same map with directions drawn evenly over the sphere, wherever its light comes from: what drawing by
+    /// luminance is measured against.
+    #[must_use]
+    pub fn drawn_evenly(mut self) -> Self {
+        let (width, height) = (self.width, self.height);
+        let solid_angles: Vec<f64> =
+            Cell::all(self.layout, width, height).map(|cell| cell.integral(|_| 1.0)).collect();
+        self.directions = GridDistribution::new(width, height, &solid_angles);
+        self
+    }
+
     /// For the laws: coarse maps with bright, dark and coloured texels.
     pub(super) fn examples() -> Vec<Self> {
         let texel = |i: usize| {
@@ -178,7 +186,8 @@ impl EnvMap {
             if k < 3 { [0.0; 3] } else { [k as f32, 0.5 * k as f32 + 1.0, if k == 5 { 90.0 } else { 2.0 }] }
         };
         let map = |layout, w: usize, h: usize| Self::new(layout, w, h, (0..w * h).map(texel).collect());
-        vec![map(Layout::LatLong, 8, 5), map(Layout::Angular, 7, 7), map(Layout::LatLong, 2, 1)]
+        let evenly = map(Layout::LatLong, 6, 4).drawn_evenly();
+        vec![map(Layout::LatLong, 8, 5), map(Layout::Angular, 7, 7), map(Layout::LatLong, 2, 1), evenly]
     }
 
     /// Linear Rec. 709 emission from a unit direction.
@@ -253,6 +262,11 @@ struct Cell {
 }
 
 impl Cell {
+    /// All cells of a map, row by row.
+    fn all(layout: Layout, width: usize, height: usize) -> impl Iterator<Item = Self> {
+        (0..width * height).map(move |i| Self { layout, width, height, column: i % width, row: i / width })
+    }
+
     /// Integral of a function of the place over the cell's solid angle, by the midpoint rule. There is a
     /// point in each quarter at least, so that a texel that shines anywhere in the cell counts.
     fn integral(&self, f: impl Fn(Vec2) -> f64) -> f64 {

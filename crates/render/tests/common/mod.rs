@@ -2,7 +2,10 @@
 #![allow(dead_code, reason = "every test program uses its own part")]
 
 pub mod judge;
+pub mod noise;
 pub mod shapes;
+pub mod small_sun;
+pub mod starved;
 pub mod text;
 pub mod window;
 

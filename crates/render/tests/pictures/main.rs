@@ -9,6 +9,7 @@ mod common;
 mod colour;
 mod direct_light;
 mod effects;
+mod environment;
 mod exposure;
 mod first_hits;
 mod furnace;

@@ -1,7 +1,8 @@
 //! Portals change no picture but its noise.
 
 use super::common::judge::assert_same;
-use super::common::window::{luminances, rel_mse, room};
+use super::common::noise::{luminances, rel_mse};
+use super::common::window::room;
 use super::common::{measure, scene};
 
 /// Pictures, and samples of a pixel in each.

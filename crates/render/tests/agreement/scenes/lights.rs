@@ -2,6 +2,7 @@
 
 use super::super::common::scene_with;
 use super::{background, block, build, common, model, room, scene_file, uniform, view, wall};
+use indigo_imaging::{LinearImage, Metadata, exr};
 use indigo_scene::Scene;
 
 /// A room that is lit from the camera's side and, if `roofless`, from above.
@@ -84,16 +85,46 @@ pub fn textured_lamp() -> Scene {
     scene_with(&scene_file(&parts.concat()), [("lamp.float.bmp", picture)])
 }
 
-/// A room that light enters from the front and through a gap round its ceiling, by a portal over each.
-pub fn portal_lit_room() -> Scene {
+/// Portals over both openings of a roofless room.
+fn portals() -> Vec<String> {
     let portal = |name: &str| {
         format!("<exit_portal><pos>0 0 0</pos><scale>1</scale><mesh_name>{name}</mesh_name></exit_portal>")
     };
-    let portals = vec![
+    vec![
         wall([0.0, 1.0, 0.0], 1.0, 1.0).text("front", "white"),
         wall([0.0, 0.0, -1.0], 1.0, 1.0).text("gap", "white"),
         portal("front"),
         portal("gap"),
-    ];
-    build(&[common(view()), open_room(true), block("white"), skylight("-0.4 -0.6 1"), portals])
+    ]
+}
+
+/// A room that light enters from the front and through a gap round its ceiling, by a portal over each.
+pub fn portal_lit_room() -> Scene {
+    build(&[common(view()), open_room(true), block("white"), skylight("-0.4 -0.6 1"), portals()])
+}
+
+/// The same room under a map in latitude and longitude, which has a bright texel before the room and one above it.
+pub fn map_through_portals() -> Scene {
+    let texel = |i: u8| match i {
+        // Left of -y and 34° high, and 79° above +x.
+        33 => [2e5, 1e5, 3e4, 1.0],
+        12 => [2e4, 1e5, 3e5, 1.0],
+        _ => [1e3, 2e2 * f32::from(i % 16), 2e3, 1.0],
+    };
+    let image = LinearImage { width: 16, height: 8, pixels: (0..128).map(texel).collect() };
+    let map = exr::encode(&image, &Metadata::default()).expect("a picture");
+    let light = "<env_map><latlong><path>map.exr</path><gain>1.5</gain></latlong></env_map>".to_owned();
+    let parts = [common(view()), open_room(true), block("white"), vec![light], portals()];
+    scene_with(&scene_file(&parts.concat()), [("map.exr", map)])
+}
+
+/// A long lamp of so many lumens, and daylight after Preetham from the front, which gives less light.
+pub fn rectangle_lamp_beside_a_hazy_sky() -> Scene {
+    let lamp = "<rectanglelight><pos>0.3 0.2 0.9</pos><width>1.2</width><height>0.2</height><spectrum><blackbody>\
+         <temperature>2800</temperature><gain>1</gain></blackbody></spectrum><efficacy_scale><power_drawn>1000</power_drawn>\
+         <overall_luminous_efficacy>150</overall_luminous_efficacy></efficacy_scale></rectanglelight>";
+    let sky =
+        "<skylight><sundir>0.3 -1 0.2</sundir><turbidity>6</turbidity><model>preetham</model></skylight>";
+    let daylight = vec![lamp.to_owned(), sky.to_owned()];
+    build(&[common(view()), open_room(false), block("grey"), daylight])
 }
