@@ -4,6 +4,7 @@ mod area;
 mod environment;
 pub mod kinds;
 mod line_tree;
+mod map_mean;
 mod modulation;
 mod portals;
 mod profile;

@@ -1,17 +1,18 @@
 //! Image maps on lamps: what multiplies the emission spectrum from point to point, and how points are
 //! drawn by it.
 
+use crate::map_mean;
 use indigo_math::grid_distribution::GridDistribution;
 use indigo_math::warp::uniform_triangle;
 use indigo_math::{Float, Real, Vec2};
-use indigo_spectrum::rgb::RgbTable;
+use indigo_spectrum::rgb::{Reflectance, RgbTable};
 use indigo_spectrum::{SampledSpectrum, SampledWavelengths, Spectrum, observer};
 use indigo_texture::Texture;
 
 /// Cells of the grids of all of a lamp's triangles together: about 2 MB.
 const CELLS: usize = 1 << 18;
-/// Cells along a side of a triangle's grid, as far as there is room for them: at least, so that the flux is
-/// right to a thousandth where few large texels are mixed, and at most; and texels that one spans at least.
+/// Cells along a side of a triangle's grid, as far as there is room for them: at least, so that few large texels
+/// are told apart, and at most; and texels that one spans at least.
 const LEAST: usize = 32;
 const MOST: usize = 256;
 const TEXELS: f64 = 2.0;
@@ -38,19 +39,28 @@ pub(crate) struct Modulation {
 impl Modulation {
     /// A map over triangles with texture coordinates, on a spectrum (W m^-3 sr^-1).
     pub fn new(texture: Texture, uvs: &[[Vec2<f64>; 3]], spectrum: &Spectrum) -> Self {
-        let eye = Eye::new(spectrum);
         let table = RgbTable::get();
+        let eye = Eye::new(spectrum, table);
         let most = ((CELLS / uvs.len().max(1)) as f64).sqrt() as usize;
         let mut grids: Vec<(usize, Vec<f64>)> = vec![];
         let size = texture.size();
         for uv in uvs {
             let n = cells(uv, size).clamp(LEAST, MOST).min(most.max(1));
-            let value =
-                |i: usize| mean_in_cell(i % n, i / n, n, |b| eye.luminance(table, texture.rgb(mix(uv, b))));
+            let value = |i: usize| mean_in_cell(i % n, i / n, n, |b| eye.luminance(texture.rgb(mix(uv, b))));
             grids.push((n, (0..n * n).map(value).collect()));
         }
-        let means: Vec<f64> =
-            grids.iter().map(|(n, cells)| cells.iter().sum::<f64>() / (n * n) as f64).collect();
+        let at = |[x, y]: [f64; 2]| {
+            let uv = Vec2::new((x / f64::from(size[0])) as Real, (y / f64::from(size[1])) as Real);
+            eye.luminance(texture.rgb(uv))
+        };
+        // A map may be finer than any grid; where its mean cannot be had, the cells' is what there is.
+        let of_cells = |(n, cells): &(usize, Vec<f64>)| cells.iter().sum::<f64>() / (n * n) as f64;
+        let exact = map_mean::means(size, uvs, at);
+        let means: Vec<f64> = exact
+            .into_iter()
+            .zip(&grids)
+            .map(|(mean, grid)| mean.unwrap_or_else(|| of_cells(grid)))
+            .collect();
         let overall = means.iter().sum::<f64>() / means.len().max(1) as f64;
         let points = grids
             .into_iter()
@@ -81,7 +91,9 @@ impl Modulation {
     /// What multiplies the spectrum at a point.
     #[inline]
     pub fn factor(&self, triangle: u32, bary: (Real, Real), lambda: &SampledWavelengths) -> SampledSpectrum {
-        factor(self.table, self.texture.rgb(mix(&self.uvs[triangle as usize], bary)), lambda)
+        let rgb = self.texture.rgb(mix(&self.uvs[triangle as usize], bary));
+        let (reflectance, scale) = reflectance(self.table, rgb);
+        reflectance.eval(lambda) * scale
     }
 
     /// Barycentric coordinates of a point of a triangle.
@@ -99,11 +111,11 @@ impl Modulation {
     }
 }
 
-/// The reflectance of an RGB triple, scaled where the triple goes beyond 1.
+/// The reflectance of an RGB triple and a factor on it, where the triple goes beyond 1.
 #[inline]
-fn factor(table: &RgbTable, rgb: [Real; 3], lambda: &SampledWavelengths) -> SampledSpectrum {
+fn reflectance(table: &RgbTable, rgb: [Real; 3]) -> (Reflectance, Real) {
     let scale = rgb[0].max(rgb[1]).max(rgb[2]).max(1.0);
-    table.lookup(rgb.map(|v| v / scale)).eval(lambda) * scale
+    (table.lookup(rgb.map(|v| v / scale)), scale)
 }
 
 #[inline]
@@ -130,8 +142,10 @@ fn mean_in_cell(column: usize, row: usize, n: usize, f: impl Fn((Real, Real)) ->
 /// The luminance of a spectrum times a smooth one: the spectrum's own is shared out among bands, in each
 /// of which the smooth one is taken at its middle.
 struct Eye {
-    /// Luminance of each band, cd/m².
+    table: &'static RgbTable,
+    /// Luminance of each band, and of all, cd/m².
     bands: Vec<f64>,
+    all: f64,
     /// The middles of the bands, as the paths' lanes.
     middles: Vec<SampledWavelengths>,
 }
@@ -142,7 +156,7 @@ const FIRST_NM: f64 = 360.0;
 const BANDS: usize = 47;
 
 impl Eye {
-    fn new(spectrum: &Spectrum) -> Self {
+    fn new(spectrum: &Spectrum, table: &'static RgbTable) -> Self {
         const STEPS: usize = 40;
         let band = |i: usize| {
             let at = |k: usize| FIRST_NM + BAND_NM * (i as f64 + (k as f64 + 0.5) / STEPS as f64);
@@ -150,7 +164,8 @@ impl Eye {
         };
         let raw: Vec<f64> = (0..BANDS).map(band).collect();
         let sum: f64 = raw.iter().sum();
-        let scale = if sum > 0.0 { spectrum.luminance() / sum } else { 0.0 };
+        let all = spectrum.luminance();
+        let scale = if sum > 0.0 { all / sum } else { 0.0 };
         let lanes = indigo_spectrum::LANES;
         let middle = |i: usize| (FIRST_NM + BAND_NM * (i.min(BANDS - 1) as f64 + 0.5)) as Real;
         let middles = (0..BANDS.div_ceil(lanes)).map(|group| {
@@ -158,16 +173,22 @@ impl Eye {
             lambda.lambda = std::array::from_fn(|lane| middle(group * lanes + lane));
             lambda
         });
-        Self { bands: raw.iter().map(|v| v * scale).collect(), middles: middles.collect() }
+        Self { table, bands: raw.iter().map(|v| v * scale).collect(), all, middles: middles.collect() }
     }
 
     /// The luminance (cd/m²) of the spectrum times what an RGB triple stands for.
-    fn luminance(&self, table: &RgbTable, rgb: [Real; 3]) -> f64 {
+    fn luminance(&self, rgb: [Real; 3]) -> f64 {
+        let [r, g, b] = rgb;
+        // Greys are flat, and many maps have no others.
+        if r == g && g == b {
+            return self.all * r.to_f64().max(0.0);
+        }
+        let (reflectance, scale) = reflectance(self.table, rgb);
         let mut sum = 0.0;
         for (lambda, bands) in self.middles.iter().zip(self.bands.chunks(indigo_spectrum::LANES)) {
-            let factor = factor(table, rgb, lambda);
-            sum += bands.iter().zip(factor.0).map(|(band, f)| band * f.to_f64()).sum::<f64>();
+            let values = reflectance.eval(lambda).0;
+            sum += bands.iter().zip(values).map(|(band, v)| band * v.to_f64()).sum::<f64>();
         }
-        sum
+        sum * scale.to_f64()
     }
 }

@@ -43,8 +43,7 @@ impl Profile {
         let n = vertical_deg.len();
         assert!(n > 1 && !horizontal_deg.is_empty() && candela.len() == n * horizontal_deg.len());
         let columns: Vec<&[f64]> = candela.chunks_exact(n).collect();
-        let (horizontal, order) = unfold(horizontal_deg);
-        let unfolded: Vec<f64> = order.iter().flat_map(|&i| columns[i]).copied().collect();
+        let (horizontal, unfolded) = unfold(horizontal_deg, &columns);
         let to_real = |v: &[f64]| v.iter().map(|&x| x as Real).collect();
         let last = vertical_deg[n - 1];
         let mut profile = Self {
@@ -147,12 +146,13 @@ fn locate(list: &[Real], x: Real) -> (usize, Real) {
     (end - 1, ((x - low) / (high - low)).clamp(0.0, 1.0))
 }
 
-/// The horizontal angles all round, and of which of the given each is the mirror image.
-fn unfold(horizontal_deg: &[f64]) -> (Vec<f64>, Vec<usize>) {
+/// The horizontal angles all round, from 0 to 360, and the intensities of each in turn, from those of the given: what
+/// these leave out is their mirror image.
+fn unfold(horizontal_deg: &[f64], columns: &[&[f64]]) -> (Vec<f64>, Vec<f64>) {
     let n = horizontal_deg.len();
     let (first, last) = (horizontal_deg[0], horizontal_deg[n - 1]);
     if n == 1 {
-        return (vec![0.0], vec![0]);
+        return (vec![0.0], columns[0].to_vec());
     }
     let mut all: Vec<(f64, usize)> = horizontal_deg.iter().copied().zip(0..).collect();
     let mut mirror = |about: f64| {
@@ -170,10 +170,19 @@ fn unfold(horizontal_deg: &[f64]) -> (Vec<f64>, Vec<usize>) {
     } else if last < 270.0 {
         mirror(180.0);
     }
-    all.retain(|(a, _)| (0.0..=360.0).contains(a));
     all.sort_by(|a, b| a.0.total_cmp(&b.0));
     all.dedup_by(|a, b| a.0 == b.0);
-    all.into_iter().unzip()
+    // From 90 to 270 there may be no angle whose image is 0: its intensities lie between those beside it.
+    let at = |angle: f64| -> Vec<f64> {
+        let end = all.partition_point(|&(a, _)| a <= angle).clamp(1, all.len() - 1);
+        let ((low, i), (high, j)) = (all[end - 1], all[end]);
+        let part = ((angle - low) / (high - low)).clamp(0.0, 1.0);
+        columns[i].iter().zip(columns[j]).map(|(a, b)| a + part * (b - a)).collect()
+    };
+    let between = all.iter().map(|&(a, _)| a).filter(|a| *a > 0.0 && *a < 360.0);
+    let angles: Vec<f64> = std::iter::once(0.0).chain(between).chain([360.0]).collect();
+    let intensities = angles.iter().flat_map(|&a| at(a)).collect();
+    (angles, intensities)
 }
 
 /// ∫ I sin θ dθ dφ of the bilinear intensity: with I = k + mθ between two vertical angles the integral is
@@ -252,6 +261,15 @@ mod tests {
                 assert!((value(p, h) - expected).abs() < 1e-3, "{h}: {} {expected}", value(p, h));
             }
         }
+        // Angles whose mirror images leave 0 out: it lies between 30, the image of 150, and -30, that of 210.
+        let gap = profile(&[90.0, 150.0, 210.0, 270.0], |_, h| 1.0 + h);
+        for (h, expected) in
+            [(0.0, 181.0), (15.0, 166.0), (345.0, 196.0), (30.0, 151.0), (120.0, 121.0), (330.0, 211.0)]
+        {
+            assert!((value(&gap, h) - expected).abs() < 1e-3, "{h}: {} {expected}", value(&gap, h));
+        }
+        let two = profile(&[90.0, 270.0], |_, _| 500.0);
+        assert!((two.flux() - 1000.0 * std::f64::consts::PI).abs() < 1e-9, "{}", two.flux());
         let round = profile(&[0.0], |_, _| 7.0);
         assert!((value(&round, 123.0) - 7.0).abs() < 1e-6);
     }

@@ -240,6 +240,43 @@ fn a_textured_lamp_can_be_scaled_to_a_flux() {
     assert!(test.passed() && test.std_error < 2e-3 * 1750.0, "{test}");
 }
 
+/// A square of side 2 in so many columns and rows of two triangles each, with its texture coordinates.
+fn quilt(n: u32) -> (Vec<[Vec3d; 3]>, Vec<[Vec2<f64>; 3]>) {
+    let corner = |k: u32| f64::from(k) / f64::from(n);
+    let faces = (0..n * n).flat_map(|i| {
+        let [u0, u1, v0, v1] = [i % n, i % n + 1, i / n, i / n + 1].map(corner);
+        [[[u0, v0], [u1, v1], [u1, v0]], [[u0, v0], [u0, v1], [u1, v1]]]
+    });
+    let faces: Vec<[[f64; 2]; 3]> = faces.collect();
+    let place = |[u, v]: [f64; 2]| Vec3d::new(2.0 * u - 1.0, 2.0 * v - 1.0, 1.0);
+    (faces.iter().map(|f| f.map(place)).collect(), faces.iter().map(|f| f.map(Vec2::from)).collect())
+}
+
+/// Maps finer than the grids that draw points: stripes, and a matrix of diodes, have the flux of their texels' mean.
+#[test]
+fn fine_textures_have_the_flux_of_their_texels() {
+    const SIDE: usize = 1024;
+    type IsLit = fn(usize, usize) -> bool;
+    let patterns: [(&str, IsLit, f64); 4] = [
+        ("every fourth column", |x, _| x % 4 == 0, 0.25),
+        ("the columns beside them", |x, _| x % 4 == 1, 0.25),
+        ("every eighth texel each way", |x, y| x % 8 == 0 && y % 8 == 0, 1.0 / 64.0),
+        ("one row", |_, y| y == 300, 1.0 / 1024.0),
+    ];
+    for (name, is_lit, part) in patterns {
+        let texels = (0..SIDE * SIDE).map(|i| if is_lit(i % SIDE, i / SIDE) { 255 } else { 0 }).collect();
+        let image = Image { width: 1024, height: 1024, channels: 1, pixels: Pixels::U8(texels) };
+        let texture = Texture::new(std::sync::Arc::new(image), Curve::IDENTITY, 0);
+        for n in [1, 32] {
+            let (corners, uvs) = quilt(n);
+            let plain = AreaLight::new(Spectrum::blackbody(2700.0, 1.0), &corners);
+            let flux = plain.flux();
+            let found = plain.with_texture(texture.clone(), &uvs).flux() / flux;
+            assert!((found / part - 1.0).abs() < 1e-4, "{name}, {n} columns: {found} instead of {part}");
+        }
+    }
+}
+
 /// Points follow the texture: hardly any fall on the dark part.
 #[test]
 fn points_follow_the_texture() {

@@ -34,12 +34,20 @@ fn float() -> Vec<u8> {
     (0..16).flat_map(|i| [value(i); 3]).flat_map(f32::to_le_bytes).collect()
 }
 
+/// 4 by 4 texels: a yellow beyond the gamut's edge, and an infinite one at the third of the second row.
+fn odd(blue: f32, bright: f32) -> Vec<u8> {
+    let value = |i: usize| if i == 6 { [bright; 3] } else { [1.0, 1.0, blue] };
+    (0..16).flat_map(value).flat_map(f32::to_le_bytes).collect()
+}
+
 impl Resolver for Memory {
     fn read(&self, path: &str, _from: &str) -> Result<Resolved, ResolveError> {
         let bytes = match path {
             "scene.igs" => self.0.clone().into_bytes(),
             "map.hdr" => hdr(),
             "probe.float" => float(),
+            "odd.float" => odd(-0.01, f32::INFINITY),
+            "even.float" => odd(0.0, 1.0),
             // A PNG's first bytes do: it is refused whatever follows.
             "map.bmp" => b"BM".to_vec(),
             _ => return Err(ResolveError::NotFound { looked: vec![path.to_owned()] }),
@@ -118,6 +126,24 @@ fn an_angular_map_lies_as_documented() {
     let (above, below) = (radiance(&map, [x, y, z]), radiance(&map, [x, y, -z]));
     assert!((below / above - 0.25 / 3.0).abs() < 1e-4, "{above} {below}");
     assert_eq!(codes(&loaded(&text.replace(">4<", ">5<"))), ["E0303"]);
+}
+
+/// A component that cannot be takes nothing else away: it is the nearest that can.
+#[test]
+fn texels_beyond_the_gamut_or_the_range_keep_their_light() {
+    let map = |file: &str| {
+        loaded(&format!(
+            "<env_map><spherical><path>{file}</path><width>4</width><gain>2</gain></spherical></env_map>"
+        ))
+    };
+    let (odd, even) = (map("odd.float"), map("even.float"));
+    assert_eq!((codes(&odd), codes(&even)), (vec!["W0308"], vec![]));
+    assert!(odd.sink.diagnostics()[0].message.contains("16 texels are"));
+    // The middles of the third texel of the first and of the second row.
+    for d in [[0.193370935, -0.791250159, 0.580112806], [0.633_539, 0.444_145, 0.633_539]] {
+        let found = [&odd, &even].map(|map| radiance(map, d));
+        assert!(found[0] > 0.5 && (found[0] / found[1] - 1.0).abs() < 1e-4, "{d:?}: {found:?}");
+    }
 }
 
 #[test]

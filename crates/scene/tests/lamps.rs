@@ -67,6 +67,21 @@ fn text(more: &str) -> String {
     )
 }
 
+/// The lamp under a linear transformation.
+fn transformed(matrix: &str, more: &str) -> String {
+    let rotation = format!("<scale>0.1</scale><rotation><matrix>{matrix}</matrix></rotation>");
+    text(more).replace("<scale>0.1</scale>", &rotation)
+}
+
+/// A rectangle lamp in place of the mesh.
+fn rectangle(width: f64, height: f64, more: &str) -> String {
+    let all = text("");
+    let (before, _) = all.split_once("<material>").expect("the parts of a scene");
+    format!(
+        "{before}<rectanglelight><pos>0 0 2</pos><width>{width}</width><height>{height}</height><spectrum><blackbody><temperature>3000</temperature><gain>1</gain></blackbody></spectrum>{more}</rectanglelight></scene>"
+    )
+}
+
 fn loaded(text: &str) -> Loaded {
     let resolver = Memory(text.to_owned());
     let options = LoadOptions {
@@ -82,7 +97,12 @@ fn loaded(text: &str) -> Loaded {
 
 #[track_caller]
 fn lights(more: &str) -> LightTable {
-    let l = loaded(&text(more));
+    lights_of(&text(more))
+}
+
+#[track_caller]
+fn lights_of(text: &str) -> LightTable {
+    let l = loaded(text);
     assert!(
         !l.sink.has_errors(),
         "{:?}",
@@ -180,9 +200,25 @@ fn lamps_have_their_lumens() {
         (efficacy.to_owned(), 1750.0),
         (format!("{map}{efficacy}"), 1750.0),
     ];
+    // Stretched, sheared and mirrored; rectangles of any aspect; and both spellings.
+    let misspelt = efficacy.replace("efficacy", "efficiacy");
+    assert!(misspelt.contains("<efficiacy_scale>") && misspelt.contains("<overall_luminous_efficiacy>"));
+    let (sheared, mirrored) = ("3 0.5 0 0 0.4 0 0 0 1", "0 2 0 1.5 0 0 0 0 1");
+    let shapes = [
+        (transformed(sheared, efficacy), 1750.0),
+        (transformed(sheared, &format!("{map}{efficacy}")), 1750.0),
+        (transformed(sheared, &profile("quadrant_bat.ies")), 2511.677934),
+        (transformed(mirrored, &misspelt), 1750.0),
+        (transformed(mirrored, &profile("full_0_360.ies")), 2511.677934),
+        (rectangle(0.2, 0.2, &misspelt), 1750.0),
+        (rectangle(2.0, 0.05, efficacy), 1750.0),
+        (rectangle(0.01, 1.5, efficacy), 1750.0),
+    ];
+    let cases: Vec<(String, f64)> =
+        cases.map(|(more, lumens)| (text(&more), lumens)).into_iter().chain(shapes).collect();
     let level = 1e-4 / (2 * cases.len()) as f64;
     for (more, expected) in cases {
-        let lights = lights(&more);
+        let lights = lights_of(&more);
         let mut rng = Rng::new(31);
         for (what, found) in [("on a sphere", lumens(&lights, &mut rng)), ("sent", sent(&lights, &mut rng))] {
             let test: MeanTest = welch(&found, &Moments::exact(expected), 0.0).at(level);

@@ -79,11 +79,47 @@ fn openings_without_a_portal_are_found() {
     assert_eq!(codes("", SKY), []);
 }
 
+/// A pane closes no opening: light passes it.
+#[test]
+fn openings_behind_panes_are_found() {
+    let glass = "<medium><name>glass</name><precedence>10</precedence><basic><ior>1.5</ior><absorption_coefficient_spectrum><uniform><value>0</value></uniform></absorption_coefficient_spectrum></basic></medium>";
+    let kinds = [
+        "<specular><transparent>true</transparent><internal_medium_name>glass</internal_medium_name></specular>",
+        "<null_material/>",
+        "<diffuse_transmitter><albedo_spectrum><uniform><value>0.5</value></uniform></albedo_spectrum></diffuse_transmitter>",
+    ];
+    let pane = |kind: &str| {
+        let sheet = |name: &str, y: i32| quad(name, [[-2, y, -2], [-2, y, 2], [2, y, 2], [2, y, -2]]);
+        let sheets = sheet("inner", -2)
+            + &sheet("outer", -2).replace("\"-2 -2 ", "\"-2 -2.01 ").replace("\"2 -2 ", "\"2 -2.01 ");
+        let material = format!("<material><name>pane</name>{kind}</material>");
+        let sheets = sheets.replace(">white<", ">pane<");
+        format!(
+            "{glass}{material}{sheets}{}{}{}",
+            placed("model", "inner"),
+            placed("model", "outer"),
+            placed("exit_portal", "north")
+        )
+    };
+    for kind in kinds {
+        let found = codes(&pane(kind), SKY);
+        let of_openings: Vec<_> = found.iter().filter(|f| f.0 == "W0312").collect();
+        assert_eq!(of_openings.len(), 1, "{kind}: {found:?}");
+        assert!(of_openings[0].1.contains("beside the exit portals"), "{found:?}");
+    }
+    // A wall closes it.
+    let wall = placed("model", "south") + &placed("exit_portal", "north");
+    assert_eq!(codes(&wall, SKY), []);
+}
+
 #[test]
 fn a_portal_that_shows_its_back_is_named() {
     // Turned by half about x, the southern one lies in the north, with its front to the room: well.
     assert_eq!(codes(&format!("{}{}", turned("south"), placed("exit_portal", "south")), SKY), []);
-    // Mirrored, a front stays a front; moved to the other side without a turn, it is a back.
+    // Mirrored in the plane y = 0, the southern one lies in the north, and its front stays a front.
+    let mirrored = turned("south").replace("1 0 0 0 -1 0 0 0 -1", "1 0 0 0 -1 0 0 0 1");
+    assert_eq!(codes(&format!("{mirrored}{}", placed("exit_portal", "south")), SKY), []);
+    // Moved to the other side without a turn, it is a back.
     let moved = placed("exit_portal", "north").replace("10 0 0", "10 -4 0");
     let found = codes(&format!("{moved}{}", placed("exit_portal", "north")), SKY);
     assert_eq!(found.len(), 1, "{found:?}");

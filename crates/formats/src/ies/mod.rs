@@ -32,6 +32,9 @@ pub struct Photometry {
 /// How far an angle that must be 0, 90, 180 or 360 degrees may be off: the rounding of a file's decimals.
 const ANGLE_ROUNDING: f64 = 1e-3;
 
+/// The largest intensity that a lamp may have, cd: lighthouses have some millions.
+const MOST_CANDELA: f64 = 1e12;
+
 /// Decodes a file.
 ///
 /// # Errors
@@ -59,7 +62,9 @@ pub fn decode(bytes: &[u8]) -> Result<Photometry, FormatError> {
     let factor = multiplier * ballast * lamp;
     let mut candela = vec![];
     for _ in 0..verticals.saturating_mul(horizontals) {
-        candela.push(words.number("candelas", "0 or more", |v| v >= 0.0)? * factor);
+        let expected = "0 or more, and with all factors 1e12 at most";
+        candela
+            .push(words.number("candelas", expected, |v| v >= 0.0 && v * factor <= MOST_CANDELA)? * factor);
     }
     Ok(Photometry { vertical_deg, horizontal_deg, candela })
 }

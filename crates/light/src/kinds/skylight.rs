@@ -20,7 +20,7 @@ pub static BLOCK: Block = Block::new(
             Kind::Real,
             Presence::Required,
             "How hazy the air is: about 2 on a very clear day, 5 in haze. `hosek` knows values from 1 to 10, \
-             `preetham` from 1.7 to 10; beyond them the nearest is taken, with a warning.",
+             `preetham` from 2 to 10; beyond them the nearest is taken, with a warning.",
         )
         .range(Range::Above(0.0)),
         Field::new(

@@ -13,8 +13,9 @@ use indigo_math::{Float, Real};
 use indigo_spectrum::{SampledSpectrum, SampledWavelengths, Spectrum};
 use std::f64::consts::PI;
 
-/// The turbidities that the sky is used for.
-pub const TURBIDITY: [f64; 2] = [1.7, 10.0];
+/// The turbidities that the sky is used for. The paper's data begin at 2; below it its formulas diverge, and a clearer
+/// air would give a brighter sky.
+pub const TURBIDITY: [f64; 2] = [2.0, 10.0];
 
 /// For Y, x and y: slope and offset in turbidity of the five coefficients of Perez's formula.
 const PEREZ: [[[f64; 2]; 5]; 3] = [

@@ -103,7 +103,10 @@ fn env_map(node: &Node, context: &mut Context) -> Option<EnvMap> {
         context.sink.push(Diagnostic::warning(
             codes::BAD_TEXELS,
             path.span,
-            format!("{}: {what} negative, too large or no number, and black instead", file.path),
+            format!(
+                "{}: {what} negative, too large or no number, and taken as the nearest that can be",
+                file.path
+            ),
         ));
     }
     Some(EnvMap::new(layout, width as usize, height as usize, texels))
@@ -124,14 +127,20 @@ fn linear_texels(image: Image) -> Result<Vec<[f32; 3]>, FormatError> {
     Ok(values.as_chunks::<3>().0.to_vec())
 }
 
-/// Multiplies all texels; those that cannot be light become black, and are counted.
+/// Multiplies all texels, and counts those that cannot be light. Of their components negative ones, which saturated
+/// colours of wide gamuts have, and those that are no number become 0; too large ones, such as a sun beyond the
+/// range of half floats, as large as the largest that can be.
 fn scale(texels: &mut [[f32; 3]], gain: f64) -> usize {
+    let can_be = 0.0..=read::LARGEST as f32;
+    let scaled = |v: f32| (f64::from(v) * gain) as f32;
+    let possible = texels.iter().flatten().map(|&v| scaled(v)).filter(|v| can_be.contains(v));
+    let largest = possible.fold(0.0, f32::max);
+    let nearest = |v: f32| if v > largest { largest } else { v.max(0.0) };
     let mut bad = 0;
     for texel in texels {
-        let scaled = texel.map(|v| (f64::from(v) * gain) as f32);
-        let is_light = scaled.iter().all(|v| (0.0..=read::LARGEST as f32).contains(v));
-        bad += usize::from(!is_light);
-        *texel = if is_light { scaled } else { [0.0; 3] };
+        let light = texel.map(scaled);
+        bad += usize::from(!light.iter().all(|v| can_be.contains(v)));
+        *texel = light.map(nearest);
     }
     bad
 }

@@ -165,7 +165,6 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
     };
     let camera = camera::focus(camera?, &accel).into_camera()?;
     let lights = lights.into_table(&geometry, &accel);
-    portal_probe::warn_of_openings(root, &accel, &lights, origin, context);
     let lamps: Vec<Option<u32>> = geometry.lights().collect();
     let (first_slot, slots) = geometry.into_slots();
     let (materials, textures, media) = materials.into_arenas();
@@ -190,6 +189,7 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
         identity: Identity { hash: [0; 32], settings: decisive? },
     };
     scene.find_starting_media(&lamps);
+    portal_probe::warn_of_openings(root, &scene, origin, context);
     Some(scene)
 }
 
