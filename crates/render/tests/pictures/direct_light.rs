@@ -1,6 +1,6 @@
 //! Direct light against closed forms: luminance of the lamp, and of a diffuse floor under it.
 
-use super::common::judge::{NITS_PER_UNIFORM, assert_is};
+use super::common::judge::{NITS_PER_UNIFORM, assert_is, assert_near};
 use super::common::shapes::{Mesh, Point, disc_irradiance, mesh_light, model, rotation, sub};
 use super::common::text::{flat_camera, grey, scene_file, settings, uniform};
 use super::common::{measure, scene};
@@ -35,12 +35,16 @@ fn over_floor(lamps: &str, eye: Point, target: Point) -> String {
     ])
 }
 
+/// Where a point of the floor is looked at from.
+fn eye_of(target: Point) -> Point {
+    [target[0] + 3.0, target[1] + 1.0, target[2] + 1.2]
+}
+
 /// Says that the floor at `target` has the luminance of an illuminance in lx, as 16 renders of some
 /// passes tell.
 #[track_caller]
 fn assert_lit(what: &str, lamps: &str, target: Point, illuminance: f64, passes: u64) {
-    let eye = [target[0] + 3.0, target[1] + 1.0, target[2] + 1.2];
-    let measured = measure(&scene(&over_floor(lamps, eye, target)), 16, passes);
+    let measured = measure(&scene(&over_floor(lamps, eye_of(target), target)), 16, passes);
     assert_is(what, measured.luminance(), ALBEDO * illuminance / PI, TOLERANCE);
 }
 
@@ -70,6 +74,43 @@ fn the_manuals_lamp_has_the_luminance_of_its_power() {
 fn the_manuals_lamp_lights_the_floor_by_the_closed_form() {
     assert_lit("below", &manual_lamp(), [0.0; 3], 153.737_6, 96);
     assert_lit("at (1, 1)", &manual_lamp(), [1.0, 1.0, 0.0], 63.905_8, 96);
+}
+
+/// Irradiance for radiance 1 by the closed forms, evaluated by another program to nine digits.
+#[test]
+fn lamps_of_every_shape_light_the_floor_by_the_table() {
+    let radiance = 5.0e7;
+    let spectrum = uniform(radiance);
+    let check = |what: &str, lamp: &str, target: Point, ratio: f64, passes: u64| {
+        let measured = measure(&scene(&over_floor(lamp, eye_of(target), target)), 16, passes);
+        let luminance = ALBEDO * ratio * radiance * NITS_PER_UNIFORM / PI;
+        // The table's is a point's irradiance; over the patch that is seen it bends by some 1e-4.
+        assert_near(what, measured.luminance(), luminance, TOLERANCE);
+    };
+    // Width, height and height above the floor; the place there.
+    for (size, [x, y], ratio) in [
+        ([0.2, 0.2, 1.9], [0.5, 0.0], 0.009_664_626),
+        ([1.0, 1.0, 1.0], [0.0, 0.0], 0.752_274_688),
+        ([2.0, 1.0, 0.5], [0.3, 0.2], 1.930_985_953),
+        ([2.0, 1.0, 0.5], [2.0, 0.0], 0.056_117_802),
+    ] {
+        let [width, height, above] = size;
+        let lamp = format!(
+            "<rectanglelight><pos>0 0 {above}</pos><width>{width}</width><height>{height}</height><spectrum>{spectrum}</spectrum></rectanglelight>"
+        );
+        check(&format!("rectangle {size:?} at ({x}, {y})"), &lamp, [x, y, 0.0], ratio, 96);
+    }
+    // Radius and height; distance from the axis. 400 corners leave out 4e-5 of the disc.
+    for (radius, above, aside, ratio) in [
+        (0.5, 1.0, 0.0, 0.628_318_531),
+        (0.1, 2.0, 0.0, 0.007_834_396),
+        (0.5, 1.0, 0.5, 0.460_075_592),
+        (1.0, 1.0, 2.0, 0.165_833_381),
+    ] {
+        let disc = Mesh::disc(radius, 400).text("disc", "lamp");
+        let lamp = grey("lamp", 0.0) + &disc + &mesh_light("disc", &spectrum, [0.0, 0.0, above], 1.0, "");
+        check(&format!("disc {radius} at {aside}"), &lamp, [0.0, aside, 0.0], ratio, 384);
+    }
 }
 
 #[test]
