@@ -8,8 +8,9 @@
 
 mod common;
 
-use common::{Case, all_examples, cases, examples};
+use common::{Case, all_examples, cases, delta_examples, examples};
 use indigo_math::{Real, Vec3};
+use indigo_scatter::materials::KINDS;
 use indigo_scatter::{Mode, ShadingPoint};
 use indigo_spectrum::LANES;
 use indigo_testkit::chi2::{Chi2, Domain};
@@ -47,16 +48,25 @@ fn assert_close(what: &str, sharpness: Real, a: Real, b: Real) {
     assert!((a - b).abs() <= tolerance * a.abs().max(b.abs()) + 1e-7, "{what}: {a} and {b}");
 }
 
+/// A kind that is registered is under these laws or those of `delta.rs`; `blend` and `null_material` have no model.
 #[test]
 fn every_registered_kind_takes_part() {
-    let names: Vec<&str> = all_examples().iter().map(|e| e.kind).collect();
-    assert!(names.contains(&"diffuse"), "{names:?}");
-    assert!(names.len() >= 10, "{names:?}");
+    let names: Vec<&str> = examples().iter().chain(&delta_examples()).map(|e| e.kind).collect();
+    for kind in KINDS {
+        let has_model = !matches!(kind.name, "blend" | "null_material");
+        assert_eq!(names.contains(&kind.name), has_model, "{}", kind.name);
+    }
+}
+
+/// The cases whose lobes a quadrature over the sphere can find and sum up in passable time. The others are under
+/// the other laws, and furnaces show their albedo.
+fn broad_cases() -> Vec<Case> {
+    cases().into_iter().filter(|case| case.sharpness < 50.0).collect()
 }
 
 #[test]
 fn directions_follow_the_density() {
-    let cases = cases();
+    let cases = broad_cases();
     for (seed, case) in cases.iter().enumerate() {
         let point = case.point();
         let test =
@@ -151,7 +161,7 @@ fn both_modes_are_adjoint() {
 /// What is scattered is no more than what arrives, and the mean weight of draws is just that.
 #[test]
 fn albedo_is_at_most_one_and_weights_average_to_it() {
-    for case in cases() {
+    for case in broad_cases() {
         let point = case.point();
         let albedo =
             sphere(1e-4, |wi| case.power(vec(wi)) * point.eval(vec(wi), Mode::Radiance).f_cos.hero() as f64)

@@ -199,3 +199,41 @@ impl Blend {
         (1.0 - share) * of(self.a) + share * of(self.b)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::materials::{Interface, MaterialContext};
+    use indigo_spectrum::SampledWavelengths;
+
+    /// Of evenly spread choices each constituent gets its share, at any depth; what passes unseen is that of nothing.
+    #[test]
+    fn choices_have_the_shares_of_the_constituents() {
+        let blend = |share: Real, a: MaterialId, b: MaterialId, materials: &[Material]| {
+            let [of_a, of_b] = [a, b].map(|id| Facts::of(&materials[id as usize]));
+            let facts = of_a.together(of_b).expect("a sound blend");
+            Material::Blend(Blend { share: Share::Constant(share), a, b, facts })
+        };
+        let uv = |_| Vec2::new(0.0, 0.0);
+        let lambda = SampledWavelengths::sample(0.5);
+        for (outer, inner, nothing) in [(0.5, 0.25, 0.125), (0.0, 1.0, 1.0), (1.0, 0.5, 0.0), (0.9, 0.0, 0.0)]
+        {
+            let mut materials = vec![Material::black(), Material::Null];
+            materials.push(blend(inner, 0, 1, &materials));
+            materials.push(blend(outer, 2, 0, &materials));
+            let at = |choice: Real| MaterialContext {
+                textures: &[],
+                materials: &materials,
+                lambda: &lambda,
+                interface: Interface::NONE,
+                choice,
+            };
+            let n = 4096;
+            let unseen =
+                (0..n).filter(|i| materials[3].chosen(&at(*i as Real / n as Real), &uv).is_invisible());
+            let share = unseen.count() as Real / n as Real;
+            assert!((share - nothing).abs() < 2.0 / n as Real, "{outer}, {inner}: {share}");
+            assert!((materials[3].unseen_share(&at(0.0), &uv) - nothing).abs() < 1e-6);
+        }
+    }
+}

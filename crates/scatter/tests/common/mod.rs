@@ -1,4 +1,5 @@
 //! The models that the laws are tried on, and the places that they are tried at.
+#![allow(dead_code, reason = "every test program uses its own part")]
 
 use indigo_decl::{Node, ResolveError, Resolved, Resolver, bind};
 use indigo_diag::{Sink, SourceMap};
@@ -28,11 +29,14 @@ const EXAMPLES: &[&str] = &[
     "<phong><ior>1.5</ior><exponent>1</exponent><diffuse_albedo_spectrum><uniform><value>1</value></uniform></diffuse_albedo_spectrum></phong>",
     "<phong><ior>2.5</ior><exponent>100</exponent><diffuse_albedo_spectrum><rgb><rgb>0.9 0.5 0.1</rgb></rgb></diffuse_albedo_spectrum></phong>",
     "<phong><ior>1.3</ior><exponent>30</exponent></phong>",
+    "<phong><ior>1.5</ior><exponent>20000</exponent><diffuse_albedo_spectrum><uniform><value>1</value></uniform></diffuse_albedo_spectrum></phong>",
     "<phong><nk_data>gold.nk</nk_data><exponent>0.1</exponent></phong>",
     "<phong><nk_data>gold.nk</nk_data><exponent>60</exponent></phong>",
     "<phong><specular_reflectivity_spectrum><uniform><value>1</value></uniform></specular_reflectivity_spectrum><exponent>3</exponent></phong>",
     "<glossy_transparent><internal_medium_name>glass</internal_medium_name><exponent>1</exponent></glossy_transparent>",
     "<glossy_transparent><internal_medium_name>glass</internal_medium_name><exponent>60</exponent></glossy_transparent>",
+    "<glossy_transparent><internal_medium_name>glass</internal_medium_name><exponent>20000</exponent></glossy_transparent>",
+    "<specular><internal_medium_name>glass</internal_medium_name><transparent>false</transparent></specular>",
 ];
 
 /// Air above, and below a glass that is more dispersive than any real one: Cauchy's A = 1.45, B = 0.02 µm².
@@ -135,15 +139,24 @@ pub fn wavelengths(u: Real) -> SampledWavelengths {
     SampledWavelengths::sample(u)
 }
 
-/// Every model at every place.
+/// Every model of which directions can be asked, at every place.
 pub fn cases() -> Vec<Case> {
+    cases_of(examples())
+}
+
+/// Every model of delta kind, at every place.
+pub fn delta_cases() -> Vec<Case> {
+    cases_of(delta_examples())
+}
+
+fn cases_of(examples: Vec<Example>) -> Vec<Case> {
     let direction = |degrees: f64| {
         let (s, c) = degrees.to_radians().sin_cos();
         Vec3::new(s as Real, 0.0, c as Real)
     };
     let lambda = wavelengths(0.4);
     let mut cases = vec![];
-    for example in examples() {
+    for example in examples {
         for (angle, tilt) in PLACES {
             cases.push(Case {
                 kind: example.kind,
@@ -177,6 +190,12 @@ fn sharpness(text: &str) -> Real {
 pub fn examples() -> Vec<Example> {
     let lambda = wavelengths(0.4);
     all_examples().into_iter().filter(|e| e.leaf(&lambda).is_connectable()).collect()
+}
+
+/// The others, which send light into single directions.
+pub fn delta_examples() -> Vec<Example> {
+    let lambda = wavelengths(0.4);
+    all_examples().into_iter().filter(|e| !e.leaf(&lambda).is_connectable()).collect()
 }
 
 /// All models that are rendered: of each kind the declaration's example, and then [`EXAMPLES`].
