@@ -81,10 +81,12 @@ pub(super) fn way(world: &World, from: &Vertex, wi: Vec3, to: &Point) -> Option<
 /// where a surface stands between.
 #[inline]
 fn passage(world: &World, ray: &Ray, length: Real, media: &MediumStack) -> Option<Passage> {
-    if !world.is_occluded(ray) {
-        return Some(world.passage(media, ray.t_max * length));
+    // Whether anything is in the way is found sooner than what comes first; but that would have to be found, too,
+    // where it may be unseen.
+    if world.scene.has_unseen_surfaces {
+        return walk(world, *ray, length, *media);
     }
-    if world.scene.has_unseen_surfaces { walk(world, *ray, length, *media) } else { None }
+    (!world.is_occluded(ray)).then(|| world.passage(media, ray.t_max * length))
 }
 
 /// The same through all surfaces that are not to be seen.
