@@ -13,13 +13,14 @@ pub struct Receiver {
 }
 
 impl Receiver {
-    /// A surface that is lit from the side of its unit normal.
+    /// A surface, on the side of a unit normal. Distant lights may leave out what comes from behind it; where the
+    /// surface lets that through, scattering finds it.
     #[inline]
     pub fn facing(p: Vec3, n: Vec3) -> Self {
         Self { p, n }
     }
 
-    /// A point that is lit from all sides: in a medium, or of a surface that lets light through.
+    /// A point that is lit from all sides: in a medium.
     #[inline]
     pub fn all_round(p: Vec3) -> Self {
         Self { p, n: Vec3::ZERO }

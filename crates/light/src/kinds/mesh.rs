@@ -55,7 +55,8 @@ pub static IES_PROFILE: Block = Block::new(
     "ies_profile",
     "A measured distribution of light over directions, from a file by IES LM-63 (1986, 1991, 1995 or 2002). Each \
      triangle emits about its own normal, so the mesh should be flat. Horizontal angles count from the x \
-     axis of the mesh, counter-clockwise seen from behind the lamp. Files of photometric type C with \
+     axis of the mesh, counter-clockwise seen from behind the lamp; a mesh that lies across its x axis has no \
+     such angle, and is to be modelled level and turned by its `rotation`. Files of photometric type C with \
      vertical angles from 0 to 90 degrees are supported, and from 0 to 180: such a lamp shines from the back \
      of its triangles, too. Factors for tilt (TILT=INCLUDE) do not apply to a fixed lamp.",
     &[Field::new("path", Kind::Path, Presence::Required, "The IES file, relative to the scene file.")],

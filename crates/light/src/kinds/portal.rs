@@ -9,7 +9,7 @@ pub static BLOCK: Block = Block::new(
     "A mesh over an opening of an interior that is lit from outside by `background`, `skylight` or \
      `env_map`: light through the opening is then found faster. If there are portals at all, they must \
      cover every opening through which a path from the camera can leave the scene, and their fronts \
-     must face the interior.",
+     must face the interior. What stands outside is then lit by light that is found by chance, and noisier.",
     &[POS, SCALE, ROTATION, MESH_NAME],
 )
 .with_later(&[Later::new("uid", "3.0")])
