@@ -2,8 +2,9 @@
 //!
 //! The picture is surrounded by darkness, wide enough that nothing comes round from the other side. What
 //! lies beyond its borders is not known, and would have sent light into it as the picture sends light
-//! out. So the result is divided by the part of the kernel that falls inside: as if the light beyond
-//! were the mean of what can be seen from there. An even picture stays even up to its borders.
+//! out. So each pixel gets the part of the kernel that falls outside times its own light: as if all beyond were as bright
+//! as the pixel that looks there. An even picture stays even up to its borders, and what a lamp close to them adds to
+//! other pixels is what it would add in the middle.
 //!
 //! Kernels are the same in opposite directions. So a kernel's rows above the middle are its rows below
 //! read backwards, with conjugate transforms; and its columns' transforms are real. Half of the work is saved.
@@ -50,8 +51,8 @@ struct Room {
 /// The transform of a kernel with K(-x) = K(x), which is real; column after column.
 pub(crate) struct Spectrum {
     values: Vec<f64>,
-    /// Part of the kernel round each pixel that falls into the picture.
-    inside: Vec<f32>,
+    /// Part of the kernel round each pixel that does not fall into the picture, the kernel's whole being 1.
+    outside: Vec<f32>,
 }
 
 /// The internal pixels of a region of a picture.
@@ -90,9 +91,11 @@ impl Window {
                 row.iter_mut().zip(from).for_each(|(v, p)| *v = f64::from(p[component]));
             });
             let rows = image.pixels.par_chunks_exact_mut(stride).skip(self.top);
-            rows.zip(room.out.par_chunks_exact(self.width)).for_each(|(row, from)| {
-                for (p, &v) in row[self.left..].iter_mut().zip(from) {
-                    p[component] = blend(p[component], v);
+            let convolved =
+                room.out.par_chunks_exact(self.width).zip(kernel.outside.par_chunks_exact(self.width));
+            rows.zip(convolved).for_each(|(row, (from, outside))| {
+                for (p, (&v, outside)) in row[self.left..].iter_mut().zip(from.iter().zip(outside)) {
+                    p[component] = blend(p[component], v + outside * p[component]);
                 }
             });
         }
@@ -115,6 +118,16 @@ impl Plane {
             inverse_column: complex.plan_fft_inverse(rows),
             kernel_column: real.plan_fft_inverse(rows),
         }
+    }
+
+    /// Memory that making the spectra of `kernels` kernels and convolving with them takes, in bytes.
+    pub fn bytes_needed(&self, kernels: u64) -> u64 {
+        let [kept, rows, width, height] = [self.kept(), self.rows, self.width, self.height].map(|n| n as u64);
+        let kernel_rows = kernels * height * (kept * 16 + width * 8);
+        let spectra = kernels * (kept * rows * 8 + width * height * 4);
+        let room = height * (2 * kept * 16 + width * 4);
+        // The rows of kernels are gone before anything is convolved.
+        spectra + kernel_rows.max(room)
     }
 
     /// Frequencies of a row.
@@ -154,7 +167,7 @@ impl Plane {
         );
         std::array::from_fn(|c| Spectrum {
             values: self.kernel_columns(&rows, N, c),
-            inside: self.inside(|y| &sums[(N * y + c) * self.width..][..self.width]),
+            outside: self.outside(|y| &sums[(N * y + c) * self.width..][..self.width]),
         })
     }
 
@@ -178,25 +191,25 @@ impl Plane {
         values
     }
 
-    /// The part of a kernel that falls into the picture, pixel after pixel. `sums` gives, for a row from the
+    /// The part of a kernel that does not fall into the picture, pixel after pixel. `sums` gives, for a row from the
     /// middle down, its sum over the offsets that lead from each pixel's column into the picture.
-    fn inside<'a>(&self, sums: impl Fn(usize) -> &'a [f64]) -> Vec<f32> {
+    fn outside<'a>(&self, sums: impl Fn(usize) -> &'a [f64]) -> Vec<f32> {
         // Of the uppermost pixels: the rows from the middle up, which are those down read backwards.
         let mut running = vec![0.0; self.width];
         for y in 0..self.height {
             running.iter_mut().zip(sums(y).iter().rev()).for_each(|(r, s)| *r += s);
         }
-        let mut inside = Vec::with_capacity(self.width * self.height);
-        inside.extend(running.iter().map(|&r| r as f32));
+        let mut outside = Vec::with_capacity(self.width * self.height);
+        outside.extend(running.iter().map(|&r| (1.0 - r) as f32));
         for y in 1..self.height {
             let changes = sums(y).iter().zip(sums(self.height - y).iter().rev());
             running.iter_mut().zip(changes).for_each(|(r, (enters, leaves))| *r += enters - leaves);
-            inside.extend(running.iter().map(|&r| r as f32));
+            outside.extend(running.iter().map(|&r| (1.0 - r) as f32));
         }
-        inside
+        outside
     }
 
-    /// The picture whose row `y` is written by `fill`, convolved; left in the room, row after row.
+    /// The picture whose row `y` is written by `fill`, in darkness, convolved; left in the room, row after row.
     fn convolve(&self, kernel: &Spectrum, room: &mut Room, fill: impl Fn(usize, &mut [f64]) + Sync) {
         self.transform_rows(&mut room.rows, fill);
         self.filter_columns(&room.rows, kernel, &mut room.columns);
@@ -204,12 +217,12 @@ impl Plane {
         room.out.resize(self.width * self.height, 0.0);
         let scale = 1.0 / (self.columns * self.rows) as f64;
         let chunks = room.out.par_chunks_mut(BATCH * self.width);
-        chunks.zip(kernel.inside.par_chunks(BATCH * self.width)).enumerate().for_each_init(
+        chunks.enumerate().for_each_init(
             || {
                 let rows = vec![Complex::default(); BATCH * self.kept()];
                 (rows, self.inverse_row.make_output_vec(), self.inverse_row.make_scratch_vec())
             },
-            |(rows, real, scratch), (batch, (out, inside))| {
+            |(rows, real, scratch), (batch, out)| {
                 load_columns(
                     columns.chunks_exact(self.height),
                     batch * BATCH,
@@ -217,16 +230,14 @@ impl Plane {
                     rows,
                     self.kept(),
                 );
-                let lines = out.chunks_exact_mut(self.width).zip(inside.chunks_exact(self.width));
-                for (row, (out, inside)) in rows.chunks_exact_mut(self.kept()).zip(lines) {
+                let lines = out.chunks_exact_mut(self.width);
+                for (row, out) in rows.chunks_exact_mut(self.kept()).zip(lines) {
                     // Real by symmetry, but for rounding.
                     row[0].im = 0.0;
                     row[self.kept() - 1].im = 0.0;
                     let done = self.inverse_row.process_with_scratch(row, real, scratch);
                     debug_assert!(done.is_ok(), "buffers of the plan's own sizes");
-                    for ((out, &v), inside) in out.iter_mut().zip(&*real).zip(inside) {
-                        *out = (v * scale) as f32 / inside;
-                    }
+                    out.iter_mut().zip(&*real).for_each(|(out, &v)| *out = (v * scale) as f32);
                 }
             },
         );
@@ -330,10 +341,15 @@ mod tests {
         spectrum
     }
 
-    fn convolve(plane: &Plane, kernel: &Spectrum, fill: impl Fn(usize, &mut [f64]) + Sync) -> Vec<f32> {
-        let mut room = Room::default();
-        plane.convolve(kernel, &mut room, fill);
-        room.out
+    /// A picture of a plane's size, convolved with its borders.
+    fn convolve(plane: &Plane, kernel: &Spectrum, value: impl Fn(usize, usize) -> f32) -> Vec<f32> {
+        let size = FilmSize::new(plane.width as u32, plane.height as u32, 1).unwrap();
+        let at = |i: usize| [value(i % plane.width, i / plane.width); 4];
+        let pixels: Vec<_> = (0..size.pixels()).map(at).collect();
+        let mut image = XyzImage { size, missing: vec![false; pixels.len()], pixels };
+        let window = Window::of(size, Region::whole(size)).unwrap();
+        window.convolve(&mut image, plane, [kernel; 3], |_, v| v);
+        image.pixels.iter().map(|p| p[1]).collect()
     }
 
     /// Falls off in no symmetric way but the one through the middle.
@@ -347,19 +363,17 @@ mod tests {
         let (width, height) = (13usize, 6usize);
         let plane = Plane::new(width, height);
         let spectrum = kernel(&plane, lopsided);
-        let picture = |x: usize, y: usize| ((x * 7 + y * 3) % 11) as f64;
-        let got = convolve(&plane, &spectrum, |y, row| {
-            row.iter_mut().enumerate().for_each(|(x, v)| *v = picture(x, y));
-        });
-        for (i, got) in got.iter().enumerate() {
+        let picture = |x: usize, y: usize| ((x * 7 + y * 3) % 11) as f32;
+        for (i, got) in convolve(&plane, &spectrum, picture).iter().enumerate() {
             let (x, y) = (i % width, i / width);
             let (mut sum, mut inside) = (0.0, 0.0);
             for (u, v) in (0..height).flat_map(|v| (0..width).map(move |u| (u, v))) {
                 let k = lopsided(x as i64 - u as i64, y as i64 - v as i64);
-                sum += k * picture(u, v);
+                sum += k * f64::from(picture(u, v));
                 inside += k;
             }
-            assert!((f64::from(*got) - sum / inside).abs() < 1e-6 * sum / inside, "{x} {y}: {got}");
+            let want = sum + (1.0 - inside) * f64::from(picture(x, y));
+            assert!((f64::from(*got) - want).abs() < 1e-5 * sum, "{x} {y}: {got} instead of {want}");
         }
     }
 
@@ -367,8 +381,22 @@ mod tests {
     fn an_even_picture_stays_even() {
         let plane = Plane::new(9, 17);
         let spectrum = kernel(&plane, lopsided);
-        for v in convolve(&plane, &spectrum, |_, row| row.fill(3.0)) {
-            assert!((v - 3.0).abs() < 1e-6, "{v}");
+        for v in convolve(&plane, &spectrum, |_, _| 3.0) {
+            assert!((v - 3.0).abs() < 1e-5, "{v}");
+        }
+    }
+
+    /// What a lamp adds to others does not depend on how close to the border it is.
+    #[test]
+    fn a_lamp_at_the_border_shines_no_farther() {
+        let plane = Plane::new(21, 21);
+        let spectrum = kernel(&plane, lopsided);
+        let lamp =
+            |at: [usize; 2]| convolve(&plane, &spectrum, move |x, y| f32::from(u8::from([x, y] == at)));
+        let (middle, corner) = (lamp([10, 10]), lamp([0, 0]));
+        for (x, y) in (0..11).flat_map(|y| (0..11).map(move |x| (x, y))).skip(1) {
+            let (a, b) = (middle[(10 + y) * 21 + 10 + x], corner[y * 21 + x]);
+            assert!((a - b).abs() < 1e-6, "{x} {y}: {b} instead of {a}");
         }
     }
 
@@ -377,12 +405,7 @@ mod tests {
     fn a_lamp_does_not_drown_the_dark() {
         let plane = Plane::new(300, 40);
         let spectrum = kernel(&plane, |x, y| if x.abs() + y.abs() < 2 { 0.2 } else { 0.0 });
-        let got = convolve(&plane, &spectrum, |y, row| {
-            row.fill(1.0);
-            if y == 20 {
-                row[5] = 1e9;
-            }
-        });
+        let got = convolve(&plane, &spectrum, |x, y| if (x, y) == (5, 20) { 1e9 } else { 1.0 });
         let worst = got.iter().skip(30).step_by(300).map(|v| (v - 1.0).abs()).fold(0.0, f32::max);
         assert!(worst < 1e-5, "{worst}");
     }

@@ -15,13 +15,14 @@ mod spread;
 use crate::Region;
 use crate::convolution::{Plane, Spectrum, Window};
 use indigo_camera::{FarField, Pupil};
-use indigo_film::XyzImage;
+use indigo_film::{FilmSize, XyzImage};
+use rayon::prelude::*;
 use spread::Spread;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// Pixels from the middle up to which the kernel is a sum over points.
 const NEAR: i64 = 24;
-/// Distance of those points in pixels.
+/// Largest distance of those points in pixels.
 const SPACING: f64 = 0.25;
 /// Sizes of pictures whose kernels are held: that of a picture and that of a region of it, say.
 const SIZES: usize = 2;
@@ -57,6 +58,11 @@ impl Diffraction {
     /// heights of the film per nm of wavelength ([`indigo_camera::ThinLens::cycle_per_nm`]).
     pub fn new(pupil: Pupil, cycle_per_nm: [f64; 2]) -> Self {
         Self { pupil, cycle_per_nm, field: OnceLock::new(), prepared: Mutex::default() }
+    }
+
+    /// Memory that the first picture of a film of a size takes besides the film and the picture, in bytes.
+    pub fn bytes_needed(size: FilmSize) -> u64 {
+        Plane::new(size.internal_width() as usize, size.internal_height() as usize).bytes_needed(3)
     }
 
     /// Spreads the light of the internal pixels of a region.
@@ -101,41 +107,63 @@ impl Kernel {
     /// For pictures of a size on a film on which a cycle has a size in pixels per nm.
     fn new(field: &FarField, [width, height]: [usize; 2], cycle: [f64; 2]) -> Self {
         let reach = (width as f64 / cycle[0]).hypot(height as f64 / cycle[1]);
-        let side = (2 * NEAR + 1) as usize;
-        let mut kernel = Self { spread: Spread::new(field, reach), cycle, near: vec![[0.0; 3]; side * side] };
-        kernel.fill_near();
-        kernel
+        let mut spread = Spread::new(field, reach);
+        let near = near(&spread, cycle);
+        // Across the ray from the middle a pixel is as wide as its tent. Nearer offsets are not looked up.
+        let nearest = NEAR as f64 / cycle[0].max(cycle[1]);
+        let first = spread.ring_at(nearest).saturating_sub(1);
+        spread.smooth(first, |[x, y]| {
+            let pixels = ((x * cycle[0]).powi(2) + (y * cycle[1]).powi(2)).sqrt();
+            1.0 / pixels.max(NEAR as f64)
+        });
+        Self { spread, cycle, near }
     }
 
     /// The kernels' values at an offset in pixels, columns to the right and rows down.
     fn at(&self, x: i64, y: i64) -> [f64; 3] {
         if x.abs().max(y.abs()) <= NEAR {
-            return self.near[Self::near_index(x, y)];
+            return self.near[near_index(x, y)];
         }
         let [cx, cy] = self.cycle;
         // Frequencies count upwards.
         let offset = [x as f64 / cx, -y as f64 / cy];
-        let radius = ((x * x + y * y) as f64).sqrt();
-        self.spread.at(offset, 1.0 / radius).map(|v| v / (cx * cy))
+        self.spread.at(offset).map(|v| v / (cx * cy))
     }
+}
 
-    fn near_index(x: i64, y: i64) -> usize {
-        ((y + NEAR) * (2 * NEAR + 1) + x + NEAR) as usize
-    }
+/// Where the pixel at an offset stands among those round the middle.
+fn near_index(x: i64, y: i64) -> usize {
+    ((y + NEAR) * (2 * NEAR + 1) + x + NEAR) as usize
+}
 
-    /// Sums points of the spread into the pixels round the middle.
-    fn fill_near(&mut self) {
-        let Self { spread, cycle, near } = self;
-        let pixel = 1.0 / cycle[0].max(cycle[1]);
-        // Tents reach one pixel beyond, squares to their corners.
-        let farthest = (NEAR + 1) as f64 * std::f64::consts::SQRT_2 / cycle[0].min(cycle[1]);
-        spread.for_each_point(farthest, SPACING * pixel, |[x, y], share| {
-            let (x, y) = (x * cycle[0], y * cycle[1]);
-            for sign in [1.0, -1.0] {
-                add_tent(near, [sign * x, sign * y], share);
-            }
-        });
+/// Sums points of the spread into the pixels round the middle.
+fn near(spread: &Spread, cycle: [f64; 2]) -> Vec<[f64; 3]> {
+    /// Rings that are summed by themselves: the order of the sums, and so their rounding, is always the same.
+    const TOGETHER: usize = 16;
+    // Tents reach one pixel beyond, squares to their corners.
+    let reach = (NEAR + 1) as f64;
+    let farthest = reach * (1.0 / cycle[0]).hypot(1.0 / cycle[1]);
+    let sectors = spread.sectors(cycle, reach);
+    let end = spread.ring_at(farthest) + 1;
+    let blank = || vec![[0.0; 3]; near_index(NEAR, NEAR) + 1];
+    let parts: Vec<_> = (0..end.div_ceil(TOGETHER))
+        .into_par_iter()
+        .map(|i| {
+            let mut part = blank();
+            let rings = i * TOGETHER..end.min((i + 1) * TOGETHER);
+            spread.for_each_point(rings, &sectors, SPACING, |[x, y], share| {
+                add_tent(&mut part, [x * cycle[0], y * cycle[1]], share);
+            });
+            part
+        })
+        .collect();
+    let mut half = blank();
+    for part in parts {
+        half.as_flattened_mut().iter_mut().zip(part.as_flattened()).for_each(|(sum, v)| *sum += v);
     }
+    // The opposite offset has the same density.
+    let opposite = half.iter().rev();
+    half.iter().zip(opposite).map(|(a, b)| std::array::from_fn(|c| 0.5 * (a[c] + b[c]))).collect()
 }
 
 /// Adds a point's share to the four pixels round it, by how near they are; offsets upwards.
@@ -147,7 +175,7 @@ fn add_tent(near: &mut [[f64; 3]], [x, y]: [f64; 2], share: [f64; 3]) {
     {
         let (x, y) = (i as i64 + dx, -(j as i64 + dy));
         if x.abs().max(y.abs()) <= NEAR {
-            let pixel = &mut near[Kernel::near_index(x, y)];
+            let pixel = &mut near[near_index(x, y)];
             pixel.iter_mut().zip(share).for_each(|(v, share)| *v += weight * share);
         }
     }

@@ -4,6 +4,7 @@
 
 use super::Mask;
 use indigo_math::{Real, Vec2};
+use rayon::prelude::*;
 
 /// A grey image of what lets light through: values from 0 to 1, rows from the top, texels from the left.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,18 +36,19 @@ pub struct Transmission {
 impl GreyImage {
     /// The image on `side` × `side` cells, each the mean of a function of the texels that it covers;
     /// texels that are cut by cells count by their covered part.
-    pub fn resized(&self, side: usize, f: impl Fn(f32) -> f32) -> Mask {
+    pub fn resized(&self, side: usize, f: impl Fn(f32) -> f32 + Sync) -> Mask {
         let mut narrow = vec![0.0; side * self.height];
-        for (from, to) in self.texels.chunks_exact(self.width).zip(narrow.chunks_exact_mut(side)) {
+        narrow.par_chunks_mut(side).zip(self.texels.par_chunks(self.width)).for_each(|(to, from)| {
             for (x, cell) in to.iter_mut().enumerate() {
                 *cell = mean(self.width, side, x, |i| f(from[i]));
             }
-        }
+        });
         let mut cells = vec![0.0; side * side];
-        for (i, cell) in cells.iter_mut().enumerate() {
-            let (x, y) = (i % side, i / side);
-            *cell = mean(self.height, side, y, |row| narrow[row * side + x]);
-        }
+        cells.par_chunks_mut(side).enumerate().for_each(|(y, to)| {
+            for (x, cell) in to.iter_mut().enumerate() {
+                *cell = mean(self.height, side, y, |row| narrow[row * side + x]);
+            }
+        });
         Mask { side, cells }
     }
 }

@@ -7,6 +7,7 @@
 
 use super::Mask;
 use indigo_math::{Real, Vec2};
+use rayon::prelude::*;
 
 /// How far a chord may leave its arc, in half sides of the square: about the step of an `f32` near 1.
 const SAGITTA: f64 = 1e-7;
@@ -81,14 +82,13 @@ impl Outline {
         for pair in self.points.windows(2) {
             widen(&mut spans, pair[0].map(f64::from), pair[1].map(f64::from));
         }
-        let mut mask = Mask { side, cells: vec![0.0; side * side] };
-        for (line, &[lo, hi]) in spans.iter().enumerate() {
-            // Lines are counted upwards, rows downwards.
-            let row = side - 1 - line / LINES;
-            let cells = &mut mask.cells[row * side..(row + 1) * side];
-            add_span(cells, [lo, hi].map(|x| 0.5 * (x + 1.0) * side as f64));
-        }
-        mask
+        let mut cells = vec![0.0; side * side];
+        // Lines are counted upwards, rows downwards.
+        cells.par_chunks_mut(side).zip(spans.par_chunks(LINES).rev()).for_each(|(row, spans)| {
+            let spans = spans.iter().filter(|[lo, hi]| lo < hi);
+            cover(row, spans.map(|span| span.map(|x| 0.5 * (x + 1.0) * side as f64)));
+        });
+        Mask { side, cells }
     }
 
     /// Its corners.
@@ -115,15 +115,29 @@ fn widen(spans: &mut [[f64; 2]], a: [f64; 2], b: [f64; 2]) {
     }
 }
 
-/// Adds what a span of a scan line, in cells, covers of each cell of its row.
-fn add_span(cells: &mut [f32], [lo, hi]: [f64; 2]) {
-    if hi <= lo {
-        return;
+/// Fills a row of zeros with how much of each cell the spans of its scan lines, in cells, cover.
+fn cover(row: &mut [f32], spans: impl Iterator<Item = [f64; 2]> + Clone) {
+    let add = |row: &mut [f32], cell: f64, share: f64| {
+        if let Some(v) = row.get_mut(cell as usize) {
+            *v += (share / LINES as f64) as f32;
+        }
+    };
+    // Cells that a line covers whole, as changes from each cell to the next: multiples of 1 / LINES, which are exact.
+    for [lo, hi] in spans.clone().filter(|[lo, hi]| lo.ceil() < hi.floor()) {
+        add(row, lo.ceil(), 1.0);
+        add(row, hi.floor(), -1.0);
     }
-    let last = (hi.ceil() as usize).min(cells.len());
-    for (x, cell) in cells.iter_mut().enumerate().take(last).skip(lo.max(0.0) as usize) {
-        let covered = hi.min(x as f64 + 1.0) - lo.max(x as f64);
-        *cell += (covered / LINES as f64) as f32;
+    let mut sum = 0.0;
+    for v in &mut *row {
+        sum += *v;
+        *v = sum;
+    }
+    // The ends, which may lie in one cell.
+    for [lo, hi] in spans {
+        add(row, lo.floor(), lo.ceil().min(hi) - lo);
+        if lo.ceil() <= hi.floor() {
+            add(row, hi.floor(), hi - hi.floor());
+        }
     }
 }
 

@@ -23,7 +23,7 @@
 // tidy: load-time mathematics
 
 use super::fourier::PowerSpectrum;
-use crate::{GreyImage, Mask};
+use crate::Mask;
 use rayon::prelude::*;
 
 /// Cells along a side of the drawing.
@@ -67,14 +67,14 @@ impl FarField {
         let outer = PowerSpectrum::new(amplitude, STEPS, LAST);
         let radii = radii();
         let rings = radii.len() - 1;
+        let directions: Vec<[f64; 2]> = (0..SECTORS).map(|j| direction(j as f64 + 0.5)).collect();
         let mut density = vec![0.0; (rings + 1) * SECTORS];
         density.par_chunks_mut(SECTORS).take(rings).enumerate().for_each(|(i, row)| {
             let (lo, hi) = (radii[i], radii[i + 1]);
             let (spectrum, step) = if hi <= CORE as f64 { (&core, CORE_STEPS) } else { (&outer, STEPS) };
-            // Two points for each of the spectrum's own.
-            let points = ((hi - lo) * 2.0 * step as f64).ceil() as usize;
-            for (j, out) in row.iter_mut().enumerate() {
-                let [x, y] = direction(j as f64 + 0.5);
+            // At least as many points as the spectrum has itself.
+            let points = ((hi - lo) * step as f64).ceil() as usize;
+            for (out, [x, y]) in row.iter_mut().zip(&directions) {
                 *out = ring_mean(lo, hi, points, |r| spectrum.at(r * x, r * y)) as f32;
             }
         });
@@ -180,7 +180,7 @@ pub fn sector_of<T: indigo_math::Float>(x: T, y: T) -> T {
 pub fn direction(sector: f64) -> [f64; 2] {
     let y = 2.0 * sector / SECTORS as f64 - 1.0;
     let x = 1.0 - y.abs();
-    let length = x.hypot(y);
+    let length = (x * x + y * y).sqrt();
     [x / length, y / length]
 }
 
@@ -206,7 +206,17 @@ fn ring_mean(lo: f64, hi: f64, points: usize, f: impl Fn(f64) -> f64) -> f64 {
     sum / weights
 }
 
-/// A drawing on fewer cells, each the mean of those that it covers.
+/// A drawing on fewer cells, each the mean of those that it covers; `side` divides the drawing's.
 fn shrunk(mask: &Mask, side: usize) -> Mask {
-    GreyImage { width: mask.side, height: mask.side, texels: mask.cells.clone() }.resized(side, |t| t)
+    let n = mask.side / side;
+    let mut cells = vec![0.0; side * side];
+    cells.par_chunks_mut(side).zip(mask.cells.par_chunks(n * mask.side)).for_each(|(out, rows)| {
+        for row in rows.chunks_exact(mask.side) {
+            out.iter_mut().zip(row.chunks_exact(n)).for_each(|(v, block)| *v += block.iter().sum::<f32>());
+        }
+        for v in out {
+            *v /= (n * n) as f32;
+        }
+    });
+    Mask { side, cells }
 }

@@ -2,9 +2,11 @@
 
 // tidy: load-time mathematics
 
-use super::fft::{Complex, Transform};
 use crate::Mask;
 use rayon::prelude::*;
+use realfft::RealFftPlanner;
+use realfft::num_complex::Complex;
+use rustfft::FftPlanner;
 
 /// Columns that are transformed together: what is read from a row of memory at once.
 const BATCH: usize = 8;
@@ -20,41 +22,47 @@ pub(super) struct PowerSpectrum {
 }
 
 impl PowerSpectrum {
-    /// The spectrum up to `cycles` in steps of 1 / `steps` of a cycle: the drawing is surrounded by
-    /// so many of its widths of darkness. Both it and the drawing's side are powers of two; `cycles` is less than half the cells of a side.
+    /// The spectrum up to `cycles` in steps of 1 / `steps` of a cycle: the drawing is surrounded by so many of its
+    /// widths of darkness. `cycles` is less than half the cells of a side.
     ///
     /// A drawing holds means over its cells, which damps high frequencies by the transform of a cell; that
     /// is taken back. What lies beyond the cells' own frequency and is folded back remains.
     pub fn new(mask: &Mask, steps: usize, cycles: usize) -> Self {
         let half = cycles * steps + 1;
         let rows = transformed_rows(mask, steps, half + 1);
-        let height = 2 * half + 1;
+        let (length, height) = (mask.side * steps, 2 * half + 1);
+        // Columns whose length is a power of two would all fall into the same lines of the processor's cache.
+        let stride = length + BATCH;
+        let undamping: Vec<f64> =
+            (0..=half).map(|k| cell_spectrum(k as f64 / length as f64).powi(-2)).collect();
+        let scale = (mask.side as f64).powi(-4);
+        let fft = FftPlanner::new().plan_fft_forward(length);
         let mut values = vec![0.0; (half + 1) * height];
-        let fft = Transform::new(mask.side * steps);
-        let scale = 1.0 / (mask.side * mask.side) as f64;
         values.par_chunks_mut(BATCH * height).enumerate().for_each_init(
-            || vec![[0.0; 2]; BATCH * mask.side * steps],
-            |buffer, (batch, out)| {
+            || {
+                let zero = Complex::<f32>::default();
+                (vec![zero; BATCH * stride], vec![zero; fft.get_inplace_scratch_len()])
+            },
+            |(buffer, scratch), (batch, out)| {
                 let first = batch * BATCH;
                 let count = out.len() / height;
-                buffer.fill([0.0; 2]);
+                buffer.fill(Complex::default());
                 for (y, row) in rows.chunks_exact(half + 1).enumerate() {
                     for (i, &v) in row[first..first + count].iter().enumerate() {
-                        buffer[i * mask.side * steps + y] = v;
+                        buffer[i * stride + y] = v;
                     }
                 }
-                let columns = buffer.chunks_exact_mut(mask.side * steps).zip(out.chunks_exact_mut(height));
+                let columns = buffer.chunks_exact_mut(stride).zip(out.chunks_exact_mut(height));
                 for (i, (column, out)) in columns.enumerate() {
-                    fft.process(column);
-                    let x = cell_spectrum((first + i) as f64 / (steps * mask.side) as f64);
-                    for (k, out) in out.iter_mut().enumerate() {
-                        // Rows count downwards, frequencies upwards.
-                        let down = half as isize - k as isize;
-                        let v = column[down.rem_euclid(column.len() as isize) as usize];
-                        let y = cell_spectrum(down as f64 / (steps * mask.side) as f64);
-                        let amplitude = scale / (x * y);
-                        let [re, im] = v.map(f64::from);
-                        *out = ((re * re + im * im) * amplitude * amplitude) as f32;
+                    let column = &mut column[..length];
+                    fft.process_with_scratch(column, scratch);
+                    let scale = scale * undamping[first + i];
+                    let power =
+                        |v: Complex<f32>, k: usize| (f64::from(v.norm_sqr()) * scale * undamping[k]) as f32;
+                    // Rows count downwards, frequencies upwards.
+                    for k in 0..=half {
+                        out[half - k] = power(column[k], k);
+                        out[half + k] = power(column[(length - k) % length], k);
                     }
                 }
             },
@@ -84,28 +92,56 @@ fn cell_spectrum(f: f64) -> f64 {
     if x == 0.0 { 1.0 } else { x.sin() / x }
 }
 
-/// The first `keep` values of each row's transform, darkness added to its length. Two real rows make one
-/// complex sequence F, whose transform holds those of both: (F_k ± F*_-k) / 2, the second over i.
-fn transformed_rows(mask: &Mask, steps: usize, keep: usize) -> Vec<Complex> {
-    let length = mask.side * steps;
-    let fft = Transform::new(length);
-    let mut rows = vec![[0.0; 2]; mask.side * keep];
-    rows.par_chunks_mut(2 * keep).zip(mask.cells.par_chunks(2 * mask.side)).for_each_init(
-        || vec![[0.0; 2]; length],
-        |buffer, (out, cells)| {
-            let (first, second) = cells.split_at(mask.side);
-            buffer.fill([0.0; 2]);
-            for ((b, &u), &v) in buffer.iter_mut().zip(first).zip(second) {
-                *b = [u, v];
-            }
-            fft.process(buffer);
-            let (first, second) = out.split_at_mut(keep);
-            for (k, (u, v)) in first.iter_mut().zip(second).enumerate() {
-                let (a, b) = (buffer[k], buffer[(length - k) % length]);
-                *u = [0.5 * (a[0] + b[0]), 0.5 * (a[1] - b[1])];
-                *v = [0.5 * (a[1] + b[1]), 0.5 * (b[0] - a[0])];
-            }
+/// The first `keep` values of each row's transform, darkness added to its length.
+fn transformed_rows(mask: &Mask, steps: usize, keep: usize) -> Vec<Complex<f32>> {
+    let fft = RealFftPlanner::<f32>::new().plan_fft_forward(mask.side * steps);
+    let mut rows = vec![Complex::default(); mask.side * keep];
+    rows.par_chunks_mut(keep).zip(mask.cells.par_chunks(mask.side)).for_each_init(
+        || (fft.make_input_vec(), fft.make_output_vec(), fft.make_scratch_vec()),
+        |(input, output, scratch), (out, cells)| {
+            let (inside, beyond) = input.split_at_mut(mask.side);
+            inside.copy_from_slice(cells);
+            beyond.fill(0.0);
+            let done = fft.process_with_scratch(input, output, scratch);
+            debug_assert!(done.is_ok(), "buffers of the plan's own sizes");
+            out.copy_from_slice(&output[..keep]);
         },
     );
     rows
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::TAU;
+
+    /// |Σ A exp(-2πi f·x)|² over the cells' middles, over the square of the transform of a cell.
+    fn power(mask: &Mask, [x, y]: [f64; 2]) -> f64 {
+        let side = mask.side as f64;
+        let mut sum = [0.0; 2];
+        for (i, &a) in mask.cells.iter().enumerate() {
+            let (u, v) = ((i % mask.side) as f64 / side, -((i / mask.side) as f64) / side);
+            let (s, c) = (-TAU * (x * u + y * v)).sin_cos();
+            sum = [sum[0] + f64::from(a) * c, sum[1] + f64::from(a) * s];
+        }
+        let damping = cell_spectrum(x / side) * cell_spectrum(y / side) * side * side;
+        (sum[0] * sum[0] + sum[1] * sum[1]) / (damping * damping)
+    }
+
+    /// At its own points it is the sum that defines it, upside and right way round.
+    #[test]
+    fn it_is_the_sum_that_defines_it() {
+        let cells = (0..256).map(|i| ((i * 7 + i / 16 * 3) % 11) as f32 / 10.0).collect();
+        let mask = Mask { side: 16, cells };
+        let (steps, cycles) = (4, 3);
+        let spectrum = PowerSpectrum::new(&mask, steps, cycles);
+        let whole = power(&mask, [0.0; 2]);
+        for i in 0..=cycles * steps {
+            for j in 0..=2 * cycles * steps {
+                let f = [i as f64, j as f64 - (cycles * steps) as f64].map(|k| k / steps as f64);
+                let (got, want) = (spectrum.at(f[0], f[1]), power(&mask, f));
+                assert!((got - want).abs() < 1e-5 * whole, "{f:?}: {got} instead of {want}");
+            }
+        }
+    }
 }

@@ -2,7 +2,6 @@
 
 pub(crate) mod deflection;
 pub mod far_field;
-mod fft;
 mod fourier;
 mod pupil;
 

@@ -9,6 +9,7 @@ use indigo_camera::FarField;
 use indigo_camera::diffraction::far_field::{SECTORS, direction, sector_of};
 use indigo_spectrum::observer::cmf;
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Wavelengths of the sum: 10 nm apart, which moves the pattern by 1 to 3 % of its size.
 const WAVELENGTHS: usize = 47;
@@ -39,24 +40,9 @@ impl Spread {
         }
         let wavelengths = wavelengths();
         let mut density = vec![[0.0; 3]; (radii.len() - 1) * SECTORS];
-        density.par_chunks_mut(SECTORS).zip(radii.par_windows(2)).for_each_init(
-            || vec![0.0f32; 3 * SECTORS],
-            |sums, (ring, edges)| {
-                // Component after component, as vector instructions want it.
-                sums.fill(0.0);
-                let middle = 0.5 * (edges[0] + edges[1]);
-                for &(lambda, weights) in &wavelengths {
-                    let (row, factor) = field.at_radius(middle / lambda);
-                    for (sums, weight) in sums.chunks_exact_mut(SECTORS).zip(weights) {
-                        let weight = (weight * factor / (lambda * lambda)) as f32;
-                        sums.iter_mut().zip(row).for_each(|(s, &p)| *s += weight * p);
-                    }
-                }
-                for (j, out) in ring.iter_mut().enumerate() {
-                    *out = [sums[j], sums[SECTORS + j], sums[2 * SECTORS + j]];
-                }
-            },
-        );
+        density.par_chunks_mut(SECTORS).zip(radii.par_windows(2)).for_each(|(ring, edges)| {
+            add_rows(&rows_at(field, &wavelengths, 0.5 * (edges[0] + edges[1])), ring);
+        });
         let mut spread = Self { radii, density, widths: field.sector_widths().to_vec() };
         spread.normalise(field, &wavelengths);
         spread
@@ -82,9 +68,25 @@ impl Spread {
         self.density.par_iter_mut().for_each(|d| *d = [d[0] * scale[0], d[1] * scale[1], d[2] * scale[2]]);
     }
 
-    /// Density at an offset, averaged over directions by a triangle whose half width is the angle `half_width`,
-    /// and linear between the middles of rings.
-    pub fn at(&self, [x, y]: [f64; 2], half_width: f64) -> [f64; 3] {
+    /// Averages the rings from `first` on over directions by a triangle; `half_width` tells half of its base, an
+    /// angle in radians, for an offset.
+    pub fn smooth(&mut self, first: usize, half_width: impl Fn([f64; 2]) -> f64 + Sync) {
+        let directions: Vec<[f64; 2]> = (0..SECTORS).map(|j| direction(j as f64 + 0.5)).collect();
+        let rings = self.density.par_chunks_mut(SECTORS).zip(self.radii.par_windows(2)).skip(first);
+        rings.for_each_init(Vec::new, |sharp: &mut Vec<[f32; 3]>, (ring, edges)| {
+            sharp.clear();
+            sharp.extend_from_slice(ring);
+            let middle = 0.5 * (edges[0] + edges[1]);
+            for (j, (out, [x, y])) in ring.iter_mut().zip(&directions).enumerate() {
+                // Sectors are even in y / (|x| + |y|): so many are there per radian.
+                let per_radian = 0.5 * SECTORS as f64 / (x + y.abs()).powi(2);
+                *out = mean_round(sharp, j, per_radian * half_width([middle * x, middle * y]));
+            }
+        });
+    }
+
+    /// Density at an offset, linear between the middles of rings and of sectors.
+    pub fn at(&self, [x, y]: [f64; 2]) -> [f64; 3] {
         // The opposite offset has the same density.
         let (x, y) = if x < 0.0 { (-x, -y) } else { (x, y) };
         let radius = (x * x + y * y).sqrt();
@@ -93,16 +95,22 @@ impl Spread {
         let here = self.ring_at(radius);
         let first = if radius < middle(here) { here.saturating_sub(1) } else { here.min(rings - 2) };
         let t = (radius - middle(first)) / (middle(first + 1) - middle(first));
-        let place = sector_of(x, y);
-        // Sectors per radian there.
-        let [u, v] = [x / radius, y.abs() / radius];
-        let half = half_width * 0.5 * SECTORS as f64 / ((u + v) * (u + v));
-        let (a, b) = (self.arc(first, place, half), self.arc(first + 1, place, half));
+        // Beyond straight up comes straight down, on the other side.
+        let place = sector_of(x, y) - 0.5;
+        let left = place.floor();
+        let s = (place - left) as f32;
+        let [left, right] = [left, left + 1.0].map(|j| (j as i64).rem_euclid(SECTORS as i64) as usize);
+        let row = |ring: usize| {
+            let row = &self.density[ring * SECTORS..(ring + 1) * SECTORS];
+            let (a, b) = (row[left], row[right]);
+            std::array::from_fn::<f64, 3, _>(|c| f64::from(a[c] + s * (b[c] - a[c])))
+        };
+        let (a, b) = (row(first), row(first + 1));
         std::array::from_fn(|c| a[c] + t * (b[c] - a[c]))
     }
 
     /// The ring that a distance falls into; the last one for all beyond.
-    fn ring_at(&self, radius: f64) -> usize {
+    pub fn ring_at(&self, radius: f64) -> usize {
         let core = CORE_RINGS as f64 * CORE_WIDTH;
         let place = if radius < core {
             radius / CORE_WIDTH
@@ -112,41 +120,46 @@ impl Spread {
         (place as usize).min(self.radii.len() - 2)
     }
 
-    /// The mean over sectors round a place of a ring.
-    fn arc(&self, ring: usize, place: f64, half: f64) -> [f64; 3] {
-        let row = &self.density[ring * SECTORS..(ring + 1) * SECTORS];
-        let (first, last) = ((place - half - 0.5).ceil() as i64, (place + half - 0.5).floor() as i64);
-        if last < first {
-            return row[(place as usize).min(SECTORS - 1)].map(f64::from);
-        }
-        let (mut sum, mut weights) = ([0.0; 3], 0.0);
-        for j in first..=last {
-            let weight = 1.0 - (j as f64 + 0.5 - place).abs() / half;
-            // Beyond straight up comes straight down, on the other side.
-            let d = row[j.rem_euclid(SECTORS as i64) as usize];
-            sum.iter_mut().zip(d).for_each(|(s, d)| *s += weight * f64::from(d));
-            weights += weight;
-        }
-        if weights > 0.0 {
-            sum.map(|s| s / weights)
-        } else {
-            row[first.rem_euclid(SECTORS as i64) as usize].map(f64::from)
-        }
+    /// The sectors as they lie among pixels, of which a cycle times nm has so many along each axis. What is more than
+    /// `reach` pixels from the middle along an axis is of no interest.
+    pub fn sectors(&self, [cx, cy]: [f64; 2], reach: f64) -> Vec<Sector> {
+        let sector = |(j, &width): (usize, &f64)| {
+            let [x, y] = direction(j as f64 + 0.5);
+            let ends = [direction(j as f64), direction(j as f64 + 1.0)];
+            // No direction of the sector goes farther than along both axes its slower end does.
+            let least = |axis: usize| ends[0][axis].abs().min(ends[1][axis].abs());
+            Sector {
+                width,
+                reach: (reach / (cx * least(0))).min(reach / (cy * least(1))),
+                along: ((x * cx).powi(2) + (y * cy).powi(2)).sqrt(),
+                across: ((y * cx).powi(2) + (x * cy).powi(2)).sqrt(),
+            }
+        };
+        self.widths.iter().enumerate().map(sector).collect()
     }
 
-    /// Calls `put` for points spread over the rings that begin nearer than a distance, with each point's
-    /// offset and its share of X, Y and Z. Points lie no farther apart than `spacing`.
-    pub fn for_each_point(&self, farthest: f64, spacing: f64, mut put: impl FnMut([f64; 2], [f64; 3])) {
-        for (ring, edges) in self.density.chunks_exact(SECTORS).zip(self.radii.windows(2)) {
-            let (lo, hi) = (edges[0], edges[1]);
-            if lo >= farthest {
-                break;
-            }
-            let radial = ((hi - lo) / spacing).ceil().max(1.0) as usize;
-            for (j, (d, &width)) in ring.iter().zip(&self.widths).enumerate() {
-                let around = (hi * width / spacing).ceil().max(1.0) as usize;
-                // Half of the ring's power, as each point stands for the opposite one, too.
-                let area = 0.5 * (hi * hi - lo * lo) * width / (radial * around) as f64;
+    /// Calls `put` for points spread over some rings as far as their sectors reach, with each point's offset and its
+    /// share of X, Y and Z. Points lie no farther apart than `spacing` pixels, on one half of the circle; each stands for
+    /// the opposite one, too.
+    pub fn for_each_point(
+        &self,
+        rings: Range<usize>,
+        sectors: &[Sector],
+        spacing: f64,
+        mut put: impl FnMut([f64; 2], [f64; 3]),
+    ) {
+        let points = |pixels: f64| (pixels / spacing).ceil().max(1.0) as usize;
+        for i in rings {
+            let lo = self.radii[i];
+            let ring = &self.density[i * SECTORS..(i + 1) * SECTORS];
+            for (j, (d, sector)) in ring.iter().zip(sectors).enumerate() {
+                let hi = self.radii[i + 1].min(sector.reach);
+                if hi <= lo {
+                    continue;
+                }
+                let radial = points((hi - lo) * sector.along);
+                let around = points(hi * sector.width * sector.across);
+                let area = (hi * hi - lo * lo) * sector.width / (radial * around) as f64;
                 let share = d.map(|d| area * f64::from(d));
                 for k in 0..radial * around {
                     let [x, y] = direction(j as f64 + ((k % around) as f64 + 0.5) / around as f64);
@@ -158,6 +171,71 @@ impl Spread {
             }
         }
     }
+}
+
+/// A sector among pixels.
+pub(super) struct Sector {
+    /// Its angle in radians.
+    width: f64,
+    /// The distance beyond which none of it is of interest.
+    reach: f64,
+    /// Pixels of one unit along its ray and across it.
+    along: f64,
+    across: f64,
+}
+
+/// The sectors of the far field at a distance for each wavelength, with what they count in X, Y and Z.
+fn rows_at<'a>(
+    field: &'a FarField,
+    wavelengths: &[(f64, [f64; 3])],
+    distance: f64,
+) -> Vec<(&'a [f32], [f64; 3])> {
+    let mut rows: Vec<(&[f32], [f64; 3])> = Vec::with_capacity(wavelengths.len());
+    for (lambda, weights) in wavelengths {
+        let (row, factor) = field.at_radius(distance / lambda);
+        let weights = weights.map(|w| w * factor / (lambda * lambda));
+        match rows.last_mut() {
+            // Far out all wavelengths share one law.
+            Some((last, sum)) if std::ptr::eq(*last, row) => {
+                sum.iter_mut().zip(weights).for_each(|(s, w)| *s += w);
+            }
+            _ => rows.push((row, weights)),
+        }
+    }
+    rows
+}
+
+/// Sums rows by their weights. So few sectors at a time that their sums stay in the processor's first cache,
+/// component after component, as vector instructions want it.
+fn add_rows(rows: &[(&[f32], [f64; 3])], ring: &mut [[f32; 3]]) {
+    const TOGETHER: usize = 256;
+    for (block, out) in ring.chunks_mut(TOGETHER).enumerate() {
+        let mut sums = [[0.0f32; TOGETHER]; 3];
+        for (row, weights) in rows {
+            let row = &row[block * TOGETHER..][..out.len()];
+            for (sums, &weight) in sums.iter_mut().zip(weights) {
+                let weight = weight as f32;
+                sums.iter_mut().zip(row).for_each(|(s, &p)| *s += weight * p);
+            }
+        }
+        for (j, out) in out.iter_mut().enumerate() {
+            *out = [sums[0][j], sums[1][j], sums[2][j]];
+        }
+    }
+}
+
+/// The mean of a ring round sector `j` by a triangle that is `half` sectors wide on each side.
+fn mean_round(ring: &[[f32; 3]], j: usize, half: f64) -> [f32; 3] {
+    let reach = half.ceil() as i64 - 1;
+    let (mut sum, mut weights) = ([0.0; 3], 0.0);
+    for k in -reach..=reach {
+        let weight = 1.0 - k.abs() as f64 / half;
+        // Beyond straight up comes straight down, on the other side.
+        let d = ring[(j as i64 + k).rem_euclid(SECTORS as i64) as usize];
+        sum.iter_mut().zip(d).for_each(|(s, d)| *s += weight * f64::from(d));
+        weights += weight;
+    }
+    sum.map(|s| (s / weights) as f32)
 }
 
 /// Wavelengths in nm, with their weights for X, Y and Z, which sum to 1.

@@ -1,6 +1,7 @@
 //! The picture of a lamp behind an aperture, against theory.
 
-use super::{Diffraction, Kernel};
+use super::spread::Spread;
+use super::{Diffraction, Kernel, NEAR, SPACING};
 use crate::Region;
 use crate::convolution::Window;
 use indigo_camera::{Aperture, Blades, FarField, Pupil};
@@ -107,6 +108,27 @@ fn light_is_kept() {
             assert!(sum <= 1.0 + 1e-6 && sum >= 1.0 - lost - 1e-6, "{pixels_per_cycle}: {sum}, {lost}");
         }
         assert!(kernel.iter().all(|(_, p)| p.iter().all(|v| *v >= 0.0)));
+    }
+}
+
+/// Neither an aperture of a nanometre nor pixels a thousand times as wide as high take more than a few points for each
+/// sector of the far field and each pixel.
+#[test]
+fn absurd_cameras_take_no_longer() {
+    for [x, y] in [[1.0, 1.0], [1e6, 1e6], [1e12, 1e12], [1.0, 1e-3]] {
+        let cycle: [f64; 2] = [x / 550.0, y / 550.0];
+        let spread = Spread::new(&CIRCLE, 40.0 * (1.0 / cycle[0]).hypot(1.0 / cycle[1]));
+        let sectors = spread.sectors(cycle, (NEAR + 1) as f64);
+        let rings = spread.radii.len() - 1;
+        let mut points = 0u64;
+        spread.for_each_point(0..rings, &sectors, SPACING, |_, _| points += 1);
+        let cells = (rings * sectors.len()) as u64;
+        assert!(points < 2 * cells + 1_000_000, "{x} and {y} pixels a cycle: {points} points");
+        let kernel = Kernel::new(&CIRCLE, [40, 40], cycle);
+        let sum: f64 =
+            (-39..40).flat_map(|y| (-39..40).map(move |x| (x, y))).map(|(x, y)| kernel.at(x, y)[1]).sum();
+        // Far from the middle a pixel has the density in its own middle, which is no mean over one so wide.
+        assert!((0.0..1.1).contains(&sum), "{x} and {y} pixels a cycle: {sum}");
     }
 }
 
