@@ -5,14 +5,14 @@
 use super::common::judge::{NITS_PER_UNIFORM, assert_near};
 use super::common::shapes::{Mesh, model};
 use super::common::text::{
-    background, basic, flat_camera, grey, henyey_greenstein, medium, scattering, scene_file, settings,
-    specular, uniform,
+    background, basic, flat_camera, henyey_greenstein, medium, scattering, scene_file, settings, specular,
+    uniform,
 };
 use super::common::{Measured, measure, scene, scene_with};
 use super::materials::{RADIANCE, point, sheet_with};
 use indigo_imaging::{LinearImage, Metadata, exr};
 use indigo_math::{Real, Vec3};
-use indigo_scatter::Mode;
+use indigo_scatter::{Interface, Mode};
 
 /// A sheet in even light shows just its albedo.
 #[test]
@@ -99,7 +99,7 @@ fn sigma_roughens() {
         let (sin, cos) = 60f64.to_radians().sin_cos();
         let scene = sheet_with(&kind, 60.0, "", "");
         let wi = Vec3::new(sin as Real, 0.0, cos as Real);
-        point(&scene, 60.0, 550.0).eval(wi, Mode::Radiance).f_cos.hero() as f64
+        point(&scene, 60.0, 550.0, Interface::NONE).eval(wi, Mode::Radiance).f_cos.hero() as f64
     };
     assert!(back(0.3) > 1.1 * back(0.0) && back(0.8) > 1.1 * back(0.3));
 }
@@ -218,14 +218,18 @@ fn every_element_of_skin_has_its_effect() {
     assert!(redness(&full) > 1.2 * redness(&little), "blood is red");
 }
 
-/// The index inside counts for rough glass, too.
+/// The index inside counts for rough glass, too, at each wavelength.
 #[test]
 fn rough_glass_reflects_by_the_index_of_its_medium() {
-    let shown = |ior: f64| {
-        let dark = medium("dark", 10, &basic(ior, &uniform(1e9), "")) + &grey("unused", 0.5);
+    let shown = |ior: f64, cauchy_b: f64| {
         let kind = "<glossy_transparent><internal_medium_name>dark</internal_medium_name><exponent>50</exponent>\
                     </glossy_transparent>";
-        measure(&sheet_with(kind, 20.0, "", &dark), 8, 64)
+        let basic = basic(ior, &uniform(1e9), "")
+            .replace("</ior>", &format!("</ior><cauchy_b_coeff>{cauchy_b}</cauchy_b_coeff>"));
+        measure(&sheet_with(kind, 20.0, "", &medium("dark", 10, &basic)), 8, 64)
     };
-    assert_rising("index", &[&shown(1.1), &shown(1.5), &shown(2.4)]);
+    assert_rising("index", &[&shown(1.1, 0.0), &shown(1.5, 0.0), &shown(2.4, 0.0)]);
+    // Z over X: an index of 1.65 in the blue and 1.52 in the red reflects 0.060 and 0.043 of them.
+    let blueness = |m: &Measured| m.xyza[2].mean() / m.xyza[0].mean();
+    assert!(blueness(&shown(1.4, 0.05)) > 1.15 * blueness(&shown(1.5, 0.0)));
 }

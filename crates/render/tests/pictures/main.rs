@@ -6,6 +6,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod albedo;
 mod colour;
 mod direct_light;
 mod effects;
