@@ -24,6 +24,8 @@ use scenes::BenchScene;
 
 /// A turn of a mode, seconds: many in a run, and many units of work in each.
 const TURN: f64 = 0.5;
+/// Parts of the time after which the relMSE of luminance is told.
+const PARTS: [f64; 4] = [0.125, 0.25, 0.5, 1.0];
 
 struct Arguments {
     scenes: Vec<String>,
@@ -111,29 +113,28 @@ fn race(bench: &BenchScene, modes: &[&Mode], arguments: &Arguments) {
         turns as f64 * TURN,
         reference.noise[0]
     );
-    println!(
-        "{:<26} {:>8} {:>11} {:>9} {:>11} {:>11} {:>16}",
-        "mode",
-        "samples",
-        "samples/s",
-        "Mrays/s",
-        "relMSE Y",
-        "relMSE XYZ",
-        format!("s to {}", arguments.target)
-    );
+    print!("{:<26} {:>8} {:>11} {:>9}", "mode", "samples", "samples/s", "Mrays/s");
+    for part in PARTS {
+        print!(" {:>11}", format!("Y at {:.1} s", arguments.seconds * part));
+    }
+    println!(" {:>11} {:>16}", "XYZ at end", format!("s to {}", arguments.target));
     for (mode, run) in modes.iter().zip(&runs) {
-        let scale = run.seconds / arguments.seconds;
-        let [y, xyz] = errors(&run.picture(), &reference).map(|e| e * scale);
-        println!(
-            "{:<26} {:>8.1} {:>11.0} {:>9.3} {:>11.3e} {:>11.3e} {:>16}",
+        print!(
+            "{:<26} {:>8.1} {:>11.0} {:>9.3}",
             mode.name,
             run.samples_per_pixel(),
             run.samples as f64 / run.seconds,
-            run.rays() as f64 / run.seconds * 1e-6,
-            y,
-            xyz,
-            time_to(&run.history, arguments.target)
+            run.rays() as f64 / run.seconds * 1e-6
         );
+        for part in PARTS {
+            // As if it were just that long after the start: error falls as 1 / time.
+            let at = arguments.seconds * part;
+            let reached = run.history.iter().find(|(s, _)| *s >= at);
+            let (seconds, error) = reached.copied().unwrap_or((at, f64::NAN));
+            print!(" {:>11.3e}", error * seconds / at);
+        }
+        let [_, xyz] = errors(&run.picture(), &reference).map(|e| e * run.seconds / arguments.seconds);
+        println!(" {:>11.3e} {:>16}", xyz, time_to(&run.history, arguments.target));
     }
 }
 

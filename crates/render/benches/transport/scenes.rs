@@ -1,5 +1,5 @@
 //! The scenes: a room of diffuse light, a caustic, glossy balls under the sky, and coloured twins of each, whose
-//! errors are to be read in XYZ.
+//! errors are to be read in XYZ; and a room lit through a gap from the next one.
 
 use super::common::scene;
 use super::common::shapes::{Mesh, mesh_light, model};
@@ -66,6 +66,7 @@ pub fn all() -> Vec<BenchScene> {
         caustic("caustic-coloured", &coloured),
         balls("balls", &white),
         balls("balls-coloured", &coloured),
+        gap("gap", &white),
     ]
 }
 
@@ -176,6 +177,23 @@ fn caustic(name: &str, paint: &Paint) -> BenchScene {
         vec![medium("glass", 10, &basic(1.5, &paint.glass, "")), specular("glass", "glass")],
         vec![sphere([0.25, -0.1, 0.5], 0.45, "glass")],
         lamp(0.125, &(paint.hot)(548_073.0)),
+    ];
+    BenchScene::new(name, "bidirectional", &parts)
+}
+
+/// A room that gets its light through a narrow gap, from a room that is not seen.
+fn gap(name: &str, paint: &Paint) -> BenchScene {
+    let partition = [[-0.3, -1., 0.], [-0.3, 0.95, 0.], [-0.3, 0.95, 2.], [-0.3, -1., 2.]];
+    let front = [[-1., -1., 0.], [-0.3, -1., 0.], [-0.3, -1., 2.], [-1., -1., 2.]];
+    let corners = [[-0.2, -0.2, 1.99], [-0.2, 0.2, 1.99], [0.2, 0.2, 1.99], [0.2, -0.2, 1.99]];
+    let parts = [
+        head(flat_camera([0.35, -3.8, 1.0], [0.0, 1.0, 0.0], 0.25)),
+        walls(paint),
+        square(partition, "partition", "white"),
+        square(front, "front", "white"),
+        block("tall", [0.2, 0.5], 20.0, [0.35, 0.2]),
+        vec![Mesh::polygon(corners.to_vec()).text("lamp", "black")],
+        vec![mesh_light("lamp", &(paint.lamp)(2e6), [-0.65, -0.3, 0.0], 1.0, "")],
     ];
     BenchScene::new(name, "bidirectional", &parts)
 }
