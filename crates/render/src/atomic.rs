@@ -4,13 +4,16 @@
 //! A file is written under a temporary name, synced, and renamed. Whoever dies on the way leaves the temporary
 //! file; the next save into the same directory removes it. A living writer holds a lock on its temporary
 //! file, which ends with it however it ends: so only what nobody writes any more is removed, and only files of
-//! such names.
+//! such names. A temporary file's name has the number of the process and one that the process gives but once, and the
+//! file is made only where there is none of that name: nobody ever writes into another's.
 
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
 
-/// The ending of temporary files, behind the name of the file to be and the number of the process.
+/// The ending of temporary files, behind the name of the file to be and two numbers.
 const ENDING: &str = ".indigo.tmp";
 
 /// Writes a file as a whole, with directories above it as needed.
@@ -24,16 +27,10 @@ pub fn write_atomically(
     let directory = directory_of(path);
     std::fs::create_dir_all(&directory)?;
     remove_stale(&directory);
-    let temporary = temporary_of(path, &directory);
-    let written = match write_temporary(&temporary, path, &write) {
+    match write_temporary(&directory, path, &write) {
         // Another process took it for stale in the instant between its making and its lock.
-        Err(error) if error.kind() == ErrorKind::NotFound => write_temporary(&temporary, path, &write),
-        other => other,
-    };
-    if written.is_err() {
-        // Best effort: the error that matters is the one being returned.
-        drop(std::fs::remove_file(&temporary));
-        return written;
+        Err(error) if error.kind() == ErrorKind::NotFound => write_temporary(&directory, path, &write)?,
+        other => other?,
     }
     // The rename itself must reach the disk; not every file system can sync a directory.
     if let Ok(d) = File::open(&directory) {
@@ -53,9 +50,12 @@ pub fn check_writable(path: &Path) -> io::Result<()> {
     }
     let directory = directory_of(path);
     std::fs::create_dir_all(&directory)?;
-    let temporary = temporary_of(path, &directory);
-    File::create(&temporary)?;
-    std::fs::remove_file(&temporary)
+    let (_, temporary) = new_temporary(&directory, path)?;
+    match std::fs::remove_file(&temporary) {
+        // Another process took it for stale.
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(()),
+        other => other,
+    }
 }
 
 fn directory_of(path: &Path) -> PathBuf {
@@ -65,27 +65,50 @@ fn directory_of(path: &Path) -> PathBuf {
     }
 }
 
-/// The process number keeps two programs that write the same picture apart.
-fn temporary_of(path: &Path, directory: &Path) -> PathBuf {
-    let mut name = path.file_name().unwrap_or_default().to_os_string();
-    name.push(format!(".{}{ENDING}", std::process::id()));
-    directory.join(name)
+/// Held where a file is made and locked, and where one without a lock is removed.
+static MAKING: Mutex<()> = Mutex::new(());
+
+/// A new file beside the one to be, locked.
+fn new_temporary(directory: &Path, path: &Path) -> io::Result<(File, PathBuf)> {
+    static NUMBER: AtomicU64 = AtomicU64::new(0);
+    let _making = MAKING.lock().unwrap_or_else(PoisonError::into_inner);
+    loop {
+        let mut name = path.file_name().unwrap_or_default().to_os_string();
+        name.push(format!(".{}.{}{ENDING}", std::process::id(), NUMBER.fetch_add(1, Ordering::Relaxed)));
+        let temporary = directory.join(name);
+        match OpenOptions::new().write(true).create_new(true).open(&temporary) {
+            // Of a process of the same number: a dead one's, or one's on another machine that shares the disk.
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
+            made => {
+                let file = made?;
+                // Where there are no locks, nobody can take the file for stale either.
+                drop(file.try_lock());
+                return Ok((file, temporary));
+            }
+        }
+    }
 }
 
 fn write_temporary(
-    temporary: &Path,
+    directory: &Path,
     path: &Path,
     write: &impl Fn(&mut BufWriter<&File>) -> io::Result<()>,
 ) -> io::Result<()> {
-    let file = File::create(temporary)?;
-    // Where there are no locks, nobody can take the file for stale either.
-    drop(file.try_lock());
-    let mut buffered = BufWriter::with_capacity(1 << 16, &file);
+    let (file, temporary) = new_temporary(directory, path)?;
+    let written = fill(&file, write).and_then(|()| std::fs::rename(&temporary, path));
+    if written.is_err() {
+        // Best effort: the error that matters is the one being returned.
+        drop(std::fs::remove_file(&temporary));
+    }
+    written
+}
+
+fn fill(file: &File, write: &impl Fn(&mut BufWriter<&File>) -> io::Result<()>) -> io::Result<()> {
+    let mut buffered = BufWriter::with_capacity(1 << 16, file);
     write(&mut buffered)?;
     buffered.flush()?;
     drop(buffered);
-    file.sync_all()?;
-    std::fs::rename(temporary, path)
+    file.sync_all()
 }
 
 /// Removes temporary files that nobody writes any more.
@@ -93,6 +116,7 @@ fn remove_stale(directory: &Path) {
     let Ok(entries) = std::fs::read_dir(directory) else { return };
     for entry in entries.filter_map(Result::ok).filter(|e| is_temporary(&e.file_name().to_string_lossy())) {
         let path = entry.path();
+        let _making = MAKING.lock().unwrap_or_else(PoisonError::into_inner);
         let unlocked = OpenOptions::new().read(true).open(&path).is_ok_and(|file| file.try_lock().is_ok());
         if unlocked {
             // Another process may be faster.
@@ -103,8 +127,10 @@ fn remove_stale(directory: &Path) {
 
 /// Whether a file has a name such as only this module gives.
 fn is_temporary(name: &str) -> bool {
-    let number = name.strip_suffix(ENDING).and_then(|n| n.rsplit_once('.'));
-    number.is_some_and(|(stem, n)| !stem.is_empty() && !n.is_empty() && n.bytes().all(|b| b.is_ascii_digit()))
+    let is_number = |n: &str| !n.is_empty() && n.bytes().all(|b| b.is_ascii_digit());
+    let mut parts = name.strip_suffix(ENDING).unwrap_or_default().rsplitn(3, '.');
+    let numbers = [parts.next(), parts.next()];
+    numbers.iter().all(|n| n.is_some_and(is_number)) && parts.next().is_some_and(|stem| !stem.is_empty())
 }
 
 #[cfg(test)]
@@ -146,26 +172,83 @@ mod tests {
         std::fs::remove_dir_all(root).unwrap();
     }
 
+    /// Names in a directory, sorted.
+    fn names(root: &Path) -> Vec<String> {
+        let entries = std::fs::read_dir(root).unwrap();
+        let mut names: Vec<String> =
+            entries.map(|e| e.unwrap().file_name().to_string_lossy().into_owned()).collect();
+        names.sort();
+        names
+    }
+
     #[test]
     fn what_the_dead_left_is_removed_and_nothing_else() {
         let root = scratch("stale");
-        let kept = ["a.png.tmp", "a.png.12.tmp", "12.indigo.tmp", "a.x.indigo.tmp", "a.png"];
-        for name in kept.iter().chain(&["b.png.4711.indigo.tmp"]) {
+        let kept = [
+            "a.png.tmp",
+            "a.png.12.7.tmp",
+            "a.png.12.indigo.tmp",
+            "12.7.indigo.tmp",
+            "a.x.7.indigo.tmp",
+            "a.png",
+        ];
+        for name in kept.iter().chain(&["b.png.4711.0.indigo.tmp"]) {
             std::fs::write(root.join(name), b"x").unwrap();
         }
-        let living = File::create(root.join("c.png.4712.indigo.tmp")).unwrap();
+        let living = File::create(root.join("c.png.4712.3.indigo.tmp")).unwrap();
         living.lock().unwrap();
         put(&root.join("d.png"), b"new").unwrap();
-        let mut names: Vec<String> = std::fs::read_dir(&root)
-            .unwrap()
-            .map(|e| e.unwrap().file_name().to_string_lossy().into_owned())
-            .collect();
-        names.sort();
         let mut expected: Vec<&str> = kept.to_vec();
-        expected.extend(["c.png.4712.indigo.tmp", "d.png"]);
+        expected.extend(["c.png.4712.3.indigo.tmp", "d.png"]);
         expected.sort_unstable();
-        assert_eq!(names, expected);
+        assert_eq!(names(&root), expected);
         drop(living);
+        std::fs::remove_dir_all(root).unwrap();
+    }
+
+    /// Saves of one name at once, in one process: each is whole, and the last one stays.
+    #[test]
+    fn saves_of_one_name_do_not_mix() {
+        let root = scratch("together");
+        let path = root.join("a.png");
+        std::thread::scope(|scope| {
+            for byte in 0..8u8 {
+                let path = &path;
+                scope.spawn(move || {
+                    for _ in 0..10 {
+                        let bytes = vec![byte; 1 << 18];
+                        write_atomically(path, |file| bytes.chunks(999).try_for_each(|c| file.write_all(c)))
+                            .unwrap();
+                        let read = std::fs::read(path).unwrap();
+                        assert!(read.len() == 1 << 18 && read.iter().all(|b| *b == read[0]));
+                    }
+                });
+            }
+        });
+        assert_eq!(names(&root), ["a.png"]);
+        std::fs::remove_dir_all(root).unwrap();
+    }
+
+    /// The number of a process that died may be that of one that lives.
+    #[test]
+    fn a_dead_ones_file_of_the_same_number_is_not_written_into() {
+        let root = scratch("number");
+        let path = root.join("a.png");
+        let (file, first) = new_temporary(&root, &path).unwrap();
+        let next = |name: &Path| {
+            let text = name.to_string_lossy().into_owned();
+            let (stem, number) = text.strip_suffix(ENDING).unwrap().rsplit_once('.').unwrap();
+            PathBuf::from(format!("{stem}.{}{ENDING}", number.parse::<u64>().unwrap() + 1))
+        };
+        // The numbers that come next are taken; other tests may draw some in between.
+        let mut taken = first.clone();
+        for _ in 0..50 {
+            taken = next(&taken);
+            std::fs::write(&taken, b"another's").unwrap();
+        }
+        let (_, second) = new_temporary(&root, &path).unwrap();
+        assert!(std::fs::read(&second).unwrap().is_empty() && second != first);
+        drop(file);
         std::fs::remove_dir_all(root).unwrap();
     }
 }

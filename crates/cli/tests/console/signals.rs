@@ -33,8 +33,7 @@ fn a_second_interrupt_leaves_at_once() {
     let bench = Workbench::new(large);
     let mut running = bench.start(&["scene.igs", "-o", "a.png", "-t", "1"]);
     // The first save has begun, so interrupts are caught by now.
-    let temporary = format!("a.png.{}.indigo.tmp", running.0.id());
-    running.wait_for(&bench.path(&temporary));
+    running.wait_for_save(&bench, "a.png");
     interrupt(&running);
     std::thread::sleep(Duration::from_millis(50));
     interrupt(&running);
@@ -58,7 +57,7 @@ fn sudden_death_leaves_a_whole_picture_and_film() {
             running.wait_for(&bench.path("a.png"));
         } else {
             // Until the next save has begun, with the film: the one before is on the disk.
-            running.wait_for(&bench.path(&format!("a.igi.{}.indigo.tmp", running.0.id())));
+            running.wait_for_save(&bench, "a.igi");
             // The program also tries for a moment whether it can write, before any save.
             let is_cleared = || left.iter().all(|name| !bench.path(name).exists());
             let patience = Instant::now() + Duration::from_secs(20);

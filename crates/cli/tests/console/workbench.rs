@@ -166,10 +166,20 @@ impl Running {
 
     /// Waits until a file is there.
     pub fn wait_for(&mut self, file: &Path) {
+        self.wait_until(&file.display().to_string(), || file.exists());
+    }
+
+    /// Waits until it writes a file, under a name for the time being.
+    pub fn wait_for_save(&mut self, bench: &Workbench, name: &str) {
+        let start = format!("{name}.{}.", self.0.id());
+        self.wait_until(&start, || bench.files().iter().any(|file| file.starts_with(&start)));
+    }
+
+    fn wait_until(&mut self, what: &str, is_there: impl Fn() -> bool) {
         let deadline = Instant::now() + PATIENCE;
-        while !file.exists() {
+        while !is_there() {
             assert!(self.0.try_wait().expect("a child of ours").is_none(), "the program ended early");
-            assert!(Instant::now() < deadline, "{} does not appear", file.display());
+            assert!(Instant::now() < deadline, "{what} does not appear");
             std::thread::sleep(Duration::from_millis(2));
         }
     }
