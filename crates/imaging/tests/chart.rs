@@ -121,6 +121,7 @@ fn the_reference_implementation_reads_our_layers() {
         .map(|i| FirstHit {
             albedo: [0.9505 * i as f32, i as f32, 1.089 * i as f32],
             normal: [0.1, -0.2, i as f32],
+            coverage: 1.0,
             depth_m: 1e10,
             object: i,
             material: 1 << 24,

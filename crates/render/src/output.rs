@@ -132,7 +132,7 @@ impl SaveJob {
                 .push(write(&self.paths.tonemapped_exr(), &exr::encode_display_linear(&linear, &metadata)?)?);
         }
         if let (true, Some(hits)) = (output.layers_exr, &self.first_hits) {
-            written.push(self.write_layers(&linear(), &saved.film, hits.get(), &metadata)?);
+            written.push(self.write_layers(linear(), &saved.film, hits.get(), &metadata)?);
         }
         if let (true, Some(denoiser)) = (output.denoised, &self.denoiser) {
             written.push(self.write_denoised(&saved.film.develop(), denoiser, &metadata)?);
@@ -142,12 +142,14 @@ impl SaveJob {
 
     fn write_layers(
         &self,
-        linear: &LinearImage,
+        mut linear: LinearImage,
         film: &FilmState,
         hits: &[FirstHit],
         metadata: &Metadata,
     ) -> Result<PathBuf, SaveError> {
-        let mut channels = layers::picture_channels(linear);
+        // Not the film's coverage: what light paths and Markov chains add to a film has none.
+        linear.pixels.iter_mut().zip(hits).for_each(|(pixel, hit)| pixel[3] = hit.coverage);
+        let mut channels = layers::picture_channels(&linear);
         channels.extend(layers::direct_channels(&self.part(film, |layer| !is_indirect(layer))));
         channels.extend(layers::indirect_channels(&self.part(film, is_indirect)));
         channels.extend(layers::first_hit_channels(hits));

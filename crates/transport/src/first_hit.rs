@@ -80,6 +80,7 @@ impl Sum {
             // Over white at the same wavelengths, so that what is grey comes out grey, without noise.
             albedo: [0, 1, 2].map(|c| (self.albedo[c] / self.white[c] * white[c]) as f32),
             normal: self.normal.map(|v| (v / RAYS as f64) as f32),
+            coverage: (self.events / RAYS as f64) as f32,
             depth_m,
             object: most_frequent(&self.objects),
             material: most_frequent(&self.materials),

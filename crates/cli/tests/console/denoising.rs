@@ -123,3 +123,22 @@ fn layers_are_saved_where_they_are_asked_for() {
         assert!(bytes.windows(name.len()).any(|w| w == name.as_bytes()), "{name}");
     }
 }
+
+/// Whatever samples the light: the ball covers the middle and nothing covers the corners.
+#[test]
+fn layers_have_the_coverage_of_the_scene() {
+    for metropolis in ["false", "true"] {
+        let bench = Workbench::new(&format!("{QUIET}<save_layers_exr>true</save_layers_exr>"));
+        let text = std::fs::read_to_string(bench.path("scene.igs")).expect("the scene");
+        bench.write("scene.igs", &text.replace("<metropolis>false", &format!("<metropolis>{metropolis}")));
+        let ran = bench.run(&["scene.igs", "-haltspp", "1", "-o", "a.png"]);
+        assert_eq!(ran.status, Some(0), "{ran:?}");
+        let image =
+            exr::prelude::read_first_flat_layer_from_file(bench.path("a_layers.exr")).expect("an EXR");
+        let alpha =
+            image.layer_data.channel_data.list.iter().find(|c| c.name.eq("A")).expect("coverage");
+        let alpha: Vec<f32> = alpha.sample_data.values_as_f32().collect();
+        assert_eq!((alpha[15 * 40 + 20], alpha[0]), (1.0, 0.0), "metropolis {metropolis}");
+        assert!(alpha.iter().any(|a| (0.1..0.9).contains(a)), "no edge is smooth");
+    }
+}

@@ -61,12 +61,17 @@ fn pixels_show_what_the_camera_first_meets() {
     assert!((floor.depth_m - 2.0 / 0.96875).abs() < 0.01, "{}", floor.depth_m);
 
     assert_eq!(at(16, 0), FirstHit::NOTHING);
+    assert_eq!((ball.coverage, floor.coverage), (1.0, 1.0));
     assert!(ball.object != 0 && floor.object != 0 && ball.object != floor.object);
     assert!(ball.material != 0 && floor.material != 0 && ball.material != floor.material);
     // A line across the ball's edge: coverage takes part in the means, and numbers change from one to the other.
     let row: Vec<FirstHit> = (0..SIDE).map(|x| at(x, 12)).collect();
     assert!(row.iter().all(|hit| [0, ball.object].contains(&hit.object)));
     assert!(row.iter().any(|hit| (0.01..0.49).contains(&hit.albedo[1])), "no edge is smooth");
+    // The ball has an albedo of a half: coverage goes with it.
+    for hit in row {
+        assert!((0.5 * hit.coverage - hit.albedo[1]).abs() < 1e-4, "{hit:?}");
+    }
 }
 
 /// What refraction does to radiance is no reflectance: glass is white, whichever way the light goes on.
