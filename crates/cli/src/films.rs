@@ -4,10 +4,11 @@ use crate::console::Console;
 use crate::flags::Arguments;
 use crate::render::{denoiser, logical_cores, program, say_saved};
 use crate::{BAD_INPUT, FAILED, RENDERED, json_report, paths, report, with_load_options};
+use indigo_film::FilmRecord;
 use indigo_render::output::{OutputPaths, SaveJob, write_film};
 use indigo_render::pool::with_jobs;
 use indigo_render::saved::{FilmFileError, merge_films, read_film};
-use indigo_scene::{LoadedDevelopment, load_development};
+use indigo_scene::{DIFFRACTION_OF_RAYS, LoadedDevelopment, load_development};
 use std::path::{Path, PathBuf};
 
 /// Adds films; the exit status.
@@ -64,6 +65,15 @@ pub fn tone_map(arguments: &Arguments, console: &mut Console) -> u8 {
             "warning: the film is {}, the scene asks for {}: the picture has the film's size",
             saved.film.size, development.size
         ));
+    }
+    let is_deflected = |record: &FilmRecord| {
+        record.settings.iter().any(|(name, value)| name == DIFFRACTION_OF_RAYS && value == "true")
+    };
+    if development.picture.diffraction.is_some() && saved.record.as_ref().is_some_and(is_deflected) {
+        console.say(
+            "warning: light is diffracted twice: when the film was rendered, by its rays, and now by the filter; set \
+             post_process_diffraction to false, as it was then",
+        );
     }
     // The film is there already.
     development.output.igi = false;

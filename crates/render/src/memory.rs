@@ -1,16 +1,25 @@
 //! How much memory a render will surely need, and whether it is there.
 
 use indigo_film::{FilmSize, LayerKind, MasterFilm};
+use indigo_imaging::Diffraction;
 use std::path::{Path, PathBuf};
 
 /// What developing a film holds for each internal pixel: XYZ and alpha in single precision, and whether there
 /// is a sample.
 const DEVELOPED_PIXEL: u64 = 4 * size_of::<f32>() as u64 + 1;
 
-/// The least that rendering and saving takes: the sums of so many films of one kind, the copy of one that is saved, and
-/// that copy developed. What the workers hold comes on top, as far as they touch it.
-pub(crate) fn needed(size: FilmSize, kinds: impl IntoIterator<Item = LayerKind>, films: u64) -> u64 {
-    (films + 1) * MasterFilm::bytes_needed(size, kinds) + DEVELOPED_PIXEL * size.internal_pixels() as u64
+/// The least that rendering and saving takes: the sums of so many films of one kind, the copy of one that is saved,
+/// that copy developed, and what diffracts it, if `is_diffracted`. What the workers hold comes on top, as far as they
+/// touch it.
+pub(crate) fn needed(
+    size: FilmSize,
+    kinds: impl IntoIterator<Item = LayerKind>,
+    films: u64,
+    is_diffracted: bool,
+) -> u64 {
+    let diffraction = if is_diffracted { Diffraction::bytes_needed(size) } else { 0 };
+    let developed = DEVELOPED_PIXEL * size.internal_pixels() as u64;
+    (films + 1) * MasterFilm::bytes_needed(size, kinds) + developed + diffraction
 }
 
 /// Bytes that the system can still give, where it says so: only Linux does, for itself and for the group of
@@ -49,9 +58,15 @@ mod tests {
     fn memory_is_counted_in_bytes() {
         let size = FilmSize::new(100, 50, 2).expect("a size");
         // 20,000 internal pixels: sums of four doubles, a count, both twice, and what is developed.
-        assert_eq!(needed(size, [LayerKind::PerPixel], 1), 20_000 * (2 * 40 + 17));
-        assert_eq!(needed(size, [LayerKind::PerPixel, LayerKind::PerScreen], 1), 20_000 * (2 * 72 + 17));
-        assert_eq!(needed(size, [LayerKind::PerPixel], 3), 20_000 * (4 * 40 + 17));
+        assert_eq!(needed(size, [LayerKind::PerPixel], 1, false), 20_000 * (2 * 40 + 17));
+        assert_eq!(
+            needed(size, [LayerKind::PerPixel, LayerKind::PerScreen], 1, false),
+            20_000 * (2 * 72 + 17)
+        );
+        assert_eq!(needed(size, [LayerKind::PerPixel], 3, false), 20_000 * (4 * 40 + 17));
+        // Three kernels and what makes them, over a period of twice the picture's width and height.
+        let filter = needed(size, [LayerKind::PerPixel], 1, true) - 20_000 * (2 * 40 + 17);
+        assert!((20_000 * 120..20_000 * 150).contains(&filter), "{filter}");
         assert_eq!(available_of("MemTotal: 9 kB\nMemAvailable:    2048 kB\n"), Some(2 << 20));
         assert_eq!(available_of("MemTotal: 9 kB\n"), None);
     }

@@ -134,7 +134,8 @@ impl Session {
         }
         let (size, count) = (scene.film.size, if estimates_error { 3 } else { 1 });
         let kinds = driver.layers().iter().map(|l| l.0);
-        check_memory(size, memory::needed(size, kinds, count), memory::available())?;
+        let is_diffracted = scene.picture.diffraction.is_some();
+        check_memory(size, memory::needed(size, kinds, count, is_diffracted), memory::available())?;
         let films = (0..count).map(|_| MasterFilm::new(size, driver.layers()));
         let films = films.collect::<Result<Vec<_>, _>>()?;
         let threads = options.threads.clamp(1, driver.most_workers());

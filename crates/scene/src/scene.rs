@@ -49,6 +49,9 @@ pub struct Scene {
     pub identity: Identity,
 }
 
+/// The name of the setting of an [`Identity`] that is `true` where diffraction deflects rays.
+pub const DIFFRACTION_OF_RAYS: &str = "diffraction of rays";
+
 /// What a film must have been rendered from to be of the same picture.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Identity {

@@ -109,6 +109,31 @@ fn a_film_is_developed_again() {
     assert_eq!(bench.run(&["--tonemap", "scene.igs", "broken.igi", "x.png"]).status, Some(1));
 }
 
+/// A film of deflected rays is not to be diffracted again without a word; and layers are of a scene, not of a film.
+#[test]
+fn what_developing_cannot_do_right_is_said() {
+    let bench = Workbench::new(SAVED);
+    let text = std::fs::read_to_string(bench.path("scene.igs")).expect("the scene");
+    let diffracting = |filter: bool| {
+        let on = format!(
+            "<aperture_diffraction>true</aperture_diffraction><post_process_diffraction>{filter}</post_process_diffraction>"
+        );
+        text.replace("<aperture_diffraction>false</aperture_diffraction>", &on)
+    };
+    bench.write("rays.igs", &diffracting(false));
+    bench.write("filter.igs", &diffracting(true));
+    ok(&bench.run(&["rays.igs", "-haltspp", "1", "-o", "a.png"]));
+    for (scene, warns) in [("rays.igs", false), ("filter.igs", true)] {
+        let ran = bench.run(&["--tonemap", scene, "a.igi", "b.png"]);
+        ok(&ran);
+        assert_eq!(ran.stderr.contains("warning: light is diffracted twice"), warns, "{}", ran.stderr);
+    }
+    let ran = bench.run(&["--tonemap", "rays.igs", "a.igi", "c.png", "-layers"]);
+    ok(&ran);
+    assert!(ran.stderr.contains("note: the layers are made while a scene is rendered"), "{}", ran.stderr);
+    assert!(bench.path("c.png").exists() && !bench.path("c_layers.exr").exists());
+}
+
 /// A disk that holds some saves and then no more: the limit on the size of files stands in for it. Whatever fits
 /// is complete, and what does not leaves the last one.
 #[cfg(unix)]

@@ -3,7 +3,7 @@
 use super::Context;
 use super::camera::Unfocused;
 use crate::codes;
-use crate::scene::{FilmSettings, OutputSettings, TransportSettings};
+use crate::scene::{DIFFRACTION_OF_RAYS, FilmSettings, OutputSettings, TransportSettings};
 use crate::settings::Settings;
 use indigo_decl::Node;
 use indigo_diag::{Diagnostic, Sink};
@@ -84,7 +84,7 @@ pub(super) fn decisive(
         ("max_num_consec_rejections", rejections.to_string()),
         ("ray_origin_nudge_distance", settings.real("ray_origin_nudge_distance").to_string()),
         ("vignetting", settings.bool("vignetting").to_string()),
-        ("diffraction of rays", by_rays.to_string()),
+        (DIFFRACTION_OF_RAYS, by_rays.to_string()),
         // Direct and indirect light are kept apart then.
         ("save_layers_exr", settings.bool("save_layers_exr").to_string()),
     ];
