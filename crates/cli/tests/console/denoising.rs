@@ -135,8 +135,7 @@ fn layers_have_the_coverage_of_the_scene() {
         assert_eq!(ran.status, Some(0), "{ran:?}");
         let image =
             exr::prelude::read_first_flat_layer_from_file(bench.path("a_layers.exr")).expect("an EXR");
-        let alpha =
-            image.layer_data.channel_data.list.iter().find(|c| c.name.eq("A")).expect("coverage");
+        let alpha = image.layer_data.channel_data.list.iter().find(|c| c.name.eq("A")).expect("coverage");
         let alpha: Vec<f32> = alpha.sample_data.values_as_f32().collect();
         assert_eq!((alpha[15 * 40 + 20], alpha[0]), (1.0, 0.0), "metropolis {metropolis}");
         assert!(alpha.iter().any(|a| (0.1..0.9).contains(a)), "no edge is smooth");
