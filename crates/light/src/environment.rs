@@ -134,15 +134,17 @@ impl Environment {
         (0..self.drawn.len()).map(own).sum::<Real>() + through
     }
 
-    /// A direction towards the light, and a point beyond the scene where the light enters.
+    /// A direction towards the light, a point beyond the scene where the light comes from, and the point by which it
+    /// was drawn, which is on its line but for rounding: so far away from it a portal may be missed.
     #[inline]
-    pub fn sample_emission(&self, choice: f64, at: [Real; 2], v: [Real; 2]) -> Option<(Vec3, Vec3)> {
+    pub fn sample_emission(&self, choice: f64, at: [Real; 2], v: [Real; 2]) -> Option<[Vec3; 3]> {
         let (i, _, rest) = self.entering.sample(choice);
         let towards = self.lights[i].sample(Vec3::ZERO, at)?;
         let Some(portals) = &self.portals else {
             let disk = concentric_disk(v.into()) * self.radius;
             let place = Frame::from_normal(towards).to_world(Vec3::new(disk.x, disk.y, self.radius));
-            return Some((towards, self.center + place));
+            let origin = self.center + place;
+            return Some([towards, origin, origin]);
         };
         let (at, n) = portals.sample_point(rest, v);
         // What comes from the interior does not enter.
@@ -151,7 +153,7 @@ impl Environment {
         }
         // Back to before the scene: what stands before the portal is in the light's way.
         let ahead = self.radius + (self.center - at).dot(towards);
-        Some((towards, at + towards * ahead))
+        Some([towards, at + towards * ahead, at])
     }
 
     /// Densities of [`sample_emission`](Self::sample_emission) for light from a direction through a point.

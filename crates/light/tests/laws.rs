@@ -222,6 +222,25 @@ fn a_background_is_drawn_through_portals_alone() {
     assert!((0..100).any(|_| draw(&open, &mut rng).is_some()));
 }
 
+/// Light that enters a wide scene by a small portal is not lost where single precision misses the portal from afar:
+/// half of all directions lead into the interior, and each of them enters.
+#[test]
+fn light_enters_by_a_small_portal_of_a_wide_scene() {
+    let corner = |x: f64, y: f64| Vec3d::new(x, y, 1.0);
+    let opening = [[corner(-0.1, -0.1), corner(-0.1, 0.1), corner(0.1, -0.1)]];
+    let sky = vec![Background(Spectrum::uniform(SKY)).into()];
+    let none = [None].into_iter();
+    let table = LightTable::with_portals(vec![], sky, none, (Vec3d::ZERO, 1e6), Portals::new(&opening));
+    let mut rng = Rng::new(8);
+    let n = 20_000;
+    let entered = (0..n).filter(|_| {
+        let [a, b, c, d, e, f] = [0; 6].map(|_| rng.uniform_f32() as Real);
+        table.sample_emission([a, b, c, d], [e, f], &wavelengths()).is_some()
+    });
+    // Within 5 standard deviations.
+    assert!((entered.count() as f64 / f64::from(n) - 0.5).abs() < 2.5 / f64::from(n).sqrt());
+}
+
 /// However wide the scene and however dark or bright the sky: neither lamps nor sky starve beside the other.
 #[test]
 fn lamps_and_environment_share_the_draws() {
