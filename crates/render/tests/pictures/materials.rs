@@ -184,7 +184,7 @@ fn bumps_neither_darken_nor_leak() {
     ];
     for kind in kinds {
         for degrees in [0.0, 60.0, -80.0] {
-            let measured = measure(&sheet(&kind, degrees), 16, 96);
+            let measured = measure(&sheet(&kind, degrees), 16, 512);
             assert_shows(&format!("{kind} at {degrees}°"), &measured, 1.0, 2e-3);
         }
     }
