@@ -2,7 +2,7 @@
 
 use super::common::judge::{assert_near, assert_same};
 use super::common::shapes::{Mesh, model};
-use super::common::text::{flat_camera, grey, scene_file, settings, uniform};
+use super::common::text::{flat_camera, grey, null, scene_file, settings, uniform};
 use super::common::{film, scene, scene_with};
 use indigo_film::XyzImage;
 use indigo_imaging::{Picture, develop, on_sensor, png};
@@ -214,6 +214,10 @@ fn autofocus_finds_what_is_in_the_middle() {
         assert!((auto.direction - fixed.direction).length() < 1e-6);
         assert_eq!(ray(&format!("<autofocus/>{}", given(77.0)), at), auto);
     }
+    // A pane that is not there is not what the camera sees.
+    let pane = null("pane") + &Mesh::square(1.0, 4.2).text("pane", "pane") + &model("pane") + "</scene>";
+    let behind = scene(&text("<autofocus/>", 1.0).replace("</scene>", &pane));
+    assert_eq!(behind.camera.ray(Vec2::new(0.2, 0.7), Vec2::new(0.9, 0.4)), ray("<autofocus/>", 1.0));
     // The wall lies behind the camera: parallel rays.
     let far = scene(&text("<autofocus/>", 9.0));
     let at = |u: Real| far.camera.ray(Vec2::new(0.2, 0.7), Vec2::new(u, 0.4)).direction;

@@ -9,7 +9,7 @@ use indigo_camera::{Aperture, Camera, Pupil, ThinLens, ThinLensParameters};
 use indigo_decl::Node;
 use indigo_decl::codes::OUT_OF_RANGE;
 use indigo_diag::{Diagnostic, Sink};
-use indigo_geom::{Accel, Ray};
+use indigo_geom::{Accel, Ray, SurfacePoint};
 use indigo_imaging::Diffraction as DiffractionFilter;
 use indigo_math::{Float, Vec3, Vec3d};
 use std::sync::Arc;
@@ -164,12 +164,24 @@ fn pupil(node: &Node, aperture: &Aperture, diffraction: Diffraction, context: &m
     pupil
 }
 
-/// Sets the focus by what the camera sees in its direction, if it is to find its focus itself.
-pub(super) fn focus(mut camera: Unfocused, accel: &Accel) -> Unfocused {
+/// Sets the focus by what the camera sees in its direction, if it is to find its focus itself: the first surface that
+/// is not wholly unseen.
+pub(super) fn focus(
+    mut camera: Unfocused,
+    accel: &Accel,
+    is_unseen: impl Fn(&SurfacePoint) -> bool,
+) -> Unfocused {
     if camera.autofocus {
         let forwards = camera.lens.forwards.normalized();
-        let ray = Ray::new(Vec3::ZERO, forwards.cast());
-        camera.lens.focus_distance = accel.intersect(&ray).map_or(f64::INFINITY, |hit| hit.t.to_f64());
+        let mut ray = Ray::new(Vec3::ZERO, forwards.cast());
+        camera.lens.focus_distance = loop {
+            let Some(hit) = accel.intersect(&ray) else { break f64::INFINITY };
+            let at = accel.surface(&ray, &hit);
+            if !is_unseen(&at) {
+                break hit.t.to_f64();
+            }
+            ray = ray.beyond(hit.t, at.p_error.length());
+        };
     }
     camera
 }

@@ -25,9 +25,9 @@ use crate::settings::Settings;
 use geometry::Geometry;
 use indigo_decl::{Node, ResolveError, Resolved, Resolver, report_unread};
 use indigo_diag::{Diagnostic, Severity, Sink, SourceMap, Span};
-use indigo_geom::{Accel, BuildOptions};
+use indigo_geom::{Accel, BuildOptions, SurfacePoint};
 use indigo_math::Vec3d;
-use indigo_scatter::MediumStack;
+use indigo_scatter::{Material, MediumStack};
 use materials::MaterialTable;
 use meshes::MeshTable;
 
@@ -163,11 +163,15 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
             return None;
         }
     };
-    let camera = camera::focus(camera?, &accel).into_camera()?;
     let lights = lights.into_table(&geometry, &accel);
     let lamps: Vec<Option<u32>> = geometry.lights().collect();
     let (first_slot, slots) = geometry.into_slots();
     let (materials, textures, media) = materials.into_arenas();
+    let is_unseen = |at: &SurfacePoint| {
+        let slot = first_slot[at.object as usize] + at.material_slot;
+        matches!(materials[slots[slot as usize] as usize], Material::Null)
+    };
+    let camera = camera::focus(camera?, &accel, is_unseen).into_camera()?;
     let mut scene = Scene {
         has_unseen_surfaces: slots.iter().any(|&m| materials[m as usize].may_be_unseen()),
         accel,
