@@ -134,26 +134,25 @@ impl Environment {
         (0..self.drawn.len()).map(own).sum::<Real>() + through
     }
 
-    /// A direction towards the light, a point beyond the scene where the light comes from, and the point by which it
-    /// was drawn, which is on its line but for rounding: so far away from it a portal may be missed.
+    /// A direction towards the light, and a point on its way: beyond the scene, or before a portal and so near it that
+    /// rounding does not make the way miss it. Things may stand before that.
     #[inline]
-    pub fn sample_emission(&self, choice: f64, at: [Real; 2], v: [Real; 2]) -> Option<[Vec3; 3]> {
+    pub fn sample_emission(&self, choice: f64, at: [Real; 2], v: [Real; 2]) -> Option<(Vec3, Vec3)> {
         let (i, _, rest) = self.entering.sample(choice);
         let towards = self.lights[i].sample(Vec3::ZERO, at)?;
         let Some(portals) = &self.portals else {
             let disk = concentric_disk(v.into()) * self.radius;
             let place = Frame::from_normal(towards).to_world(Vec3::new(disk.x, disk.y, self.radius));
-            let origin = self.center + place;
-            return Some([towards, origin, origin]);
+            return Some((towards, self.center + place));
         };
-        let (at, n) = portals.sample_point(rest, v);
+        let portal = portals.sample_point(rest, v);
         // What comes from the interior does not enter.
-        if towards.dot(n) >= 0.0 {
+        if towards.dot(portal.n) >= 0.0 {
             return None;
         }
-        // Back to before the scene: what stands before the portal is in the light's way.
-        let ahead = self.radius + (self.center - at).dot(towards);
-        Some([towards, at + towards * ahead, at])
+        // By the magnitude of the numbers that the point was made of: surfaces in the portal's plane are met for
+        // sure, and rounding is what it was.
+        Some((towards, portal.p + towards * portal.magnitude))
     }
 
     /// Densities of [`sample_emission`](Self::sample_emission) for light from a direction through a point.

@@ -29,6 +29,16 @@ struct Triangle {
     normal: Vec3,
 }
 
+/// A point drawn on a portal.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PortalPoint {
+    pub p: Vec3,
+    /// Unit normal, into the interior.
+    pub n: Vec3,
+    /// Sum of the lengths that `p` is the sum of: its rounding is some units in the last place of this.
+    pub magnitude: Real,
+}
+
 /// How a ray passes the portals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Passage {
@@ -71,21 +81,26 @@ impl Portals {
         self.area_m2
     }
 
-    /// A point, even over the area, and the unit normal there.
+    /// A point, even over the area.
     #[inline]
-    pub(crate) fn sample_point(&self, choice: f64, at: [Real; 2]) -> (Vec3, Vec3) {
+    pub(crate) fn sample_point(&self, choice: f64, at: [Real; 2]) -> PortalPoint {
         let (i, _, _) = self.by_area.sample(choice);
         let t = &self.triangles[i];
         let (b1, b2) = uniform_triangle(Vec2::from(at));
-        (t.corner + t.edge1 * b1 + t.edge2 * b2, t.normal)
+        let (a, b) = (t.edge1 * b1, t.edge2 * b2);
+        PortalPoint {
+            p: t.corner + a + b,
+            n: t.normal,
+            magnitude: t.corner.length() + a.length() + b.length(),
+        }
     }
 
     /// A direction out of the interior from a point, with density [`pdf_direction`](Self::pdf_direction).
     #[inline]
     pub(crate) fn sample_direction(&self, p: Vec3, choice: f64, at: [Real; 2]) -> Option<Vec3> {
-        let (at, n) = self.sample_point(choice, at);
-        let wi = (at - p).try_normalized()?;
-        (wi.dot(n) < 0.0).then_some(wi)
+        let at = self.sample_point(choice, at);
+        let wi = (at.p - p).try_normalized()?;
+        (wi.dot(at.n) < 0.0).then_some(wi)
     }
 
     /// Density (1/sr) with which [`sample_direction`](Self::sample_direction) draws a direction from `p`.

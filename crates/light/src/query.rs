@@ -81,7 +81,8 @@ pub struct LightSample {
 /// area across the direction (1/m²).
 #[derive(Clone, Copy, Debug)]
 pub struct Emission {
-    /// Where the light begins, render space; for the environment a point beyond the scene.
+    /// Where the light begins, render space; for the environment a point on its way, beyond the scene unless
+    /// there are portals ([`LightTable::portals`](crate::LightTable::portals)): then things may stand before it.
     pub origin: Vec3,
     /// The point on a lamp; `None` for the environment.
     pub point: Option<EmitterPoint>,

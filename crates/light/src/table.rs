@@ -267,8 +267,8 @@ impl LightTable {
         lambda: &SampledWavelengths,
     ) -> Option<Emission> {
         let environment = self.environment.as_ref()?;
-        let [towards, origin, through] = environment.sample_emission(choice, at, v)?;
-        let pdf = self.pdf_emission_environment(towards, through);
+        let (towards, origin) = environment.sample_emission(choice, at, v)?;
+        let pdf = self.pdf_emission_environment(towards, origin);
         // A scene without extent gets no light: the density over its area has no value.
         (pdf.first > 0.0 && pdf.second > 0.0 && pdf.second.is_finite()).then(|| Emission {
             origin,

@@ -167,9 +167,25 @@ impl LightPath {
 /// The way of light that leaves a lamp or enters the scene from its environment, where there is air.
 fn leave_lamp(world: &World, emission: &Emission) -> Flight {
     let (Some(point), Some(lamp)) = (&emission.point, emission.lamp()) else {
-        let ray = Ray::new(emission.origin, emission.direction);
-        return Flight::new(ray.o, ray, MediumStack::AIR);
+        let origin =
+            if world.scene.lights.portals().is_some() { entry(world, emission) } else { emission.origin };
+        return Flight::new(origin, Ray::new(origin, emission.direction), MediumStack::AIR);
     };
     let ray = Point::of_light(point).spawn(world.scene, emission.direction);
     Flight::new(point.p, ray, world.scene.media_at_lamp(lamp, ray.o, ray.d))
+}
+
+/// A point before all that stands in the way of light from the environment, the light's own origin where that is one.
+///
+/// A point beyond the whole scene would do, but for rounding: from kilometres away single precision may miss the portal
+/// by which the light was drawn, and only those rays are lost, none won. So the point is as near as can be.
+fn entry(world: &World, emission: &Emission) -> Vec3 {
+    let mut back = Ray::new(emission.origin, -emission.direction);
+    let mut origin = back.o;
+    while let Some(hit) = world.intersect(&back) {
+        // Beyond it by the magnitude of its coordinates: their rounding does not matter then.
+        origin = back.at(hit.t + back.at(hit.t).length());
+        back = back.beyond(hit.t, 0.0);
+    }
+    origin
 }
