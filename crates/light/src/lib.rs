@@ -5,6 +5,7 @@ mod environment;
 pub mod kinds;
 mod line_tree;
 mod map_mean;
+mod map_row;
 mod modulation;
 mod portals;
 mod profile;

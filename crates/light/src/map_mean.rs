@@ -4,195 +4,146 @@
 //! polynomials of degree 3. A triangle takes the patches that it covers wholly from sums along their row, and
 //! integrates those on its border over the part inside it. So the work grows with a triangle's width and height in
 //! texels, not with its area.
+//!
+//! Where that is too much for all triangles of a mesh, because each spans much of a fine map or many repeats of it,
+//! those that span most see the map in coarser cells of one value. What two neighbours share of a cell they share out
+//! by area, so that nothing is lost or counted twice on a surface that they cover together.
 
+use crate::map_row::{Point, Row, Triangle, area, extent};
 use indigo_math::Vec2;
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 
-/// Rows and columns of texels that all triangles together may cross: a second of work. A mesh of so many repeats of
-/// its map gets the estimate that its caller has.
-const BUDGET: f64 = (1 << 24) as f64;
-/// Gauss's points are this far on both sides of an interval's middle: half of 1/√3.
-const GAUSS: f64 = 0.288_675_134_594_812_9;
+/// Rows and columns of texels that all triangles together may cross: some seconds of work. It is enough for 100,000
+/// triangles that share a map of 4096 by 4096 texels.
+const BUDGET: f64 = (1 << 22) as f64;
 
-/// A corner, in texels.
-type Point = [f64; 2];
-
-/// A row of patches in which a triangle lies.
+/// A row of patches in which a triangle lies, counted on over the map's repeats.
 struct Crossing {
-    /// The row in the map.
-    row: u32,
-    /// The row counted on over the map's repeats.
-    y: f64,
+    y: u32,
     triangle: u32,
 }
 
 /// The mean over each triangle, of the map's coordinates, of a value at a place in texels; the map repeats after its
-/// size. `None` where a triangle has no extent in the map, or is beyond what can be done.
+/// size. `None` where a triangle has no extent in the map.
 pub(crate) fn means(
     size: [u32; 2],
     uvs: &[[Vec2<f64>; 3]],
     value: impl Fn(Point) -> f64,
 ) -> Vec<Option<f64>> {
-    let triangles: Vec<Option<[Point; 3]>> = in_texels(size, uvs);
-    let mut crossings = vec![];
-    for (i, corners) in triangles.iter().enumerate() {
-        let Some([_, [low, high]]) = corners.map(|c| extent(&c)) else { continue };
-        let rows = (low.floor() as i64..high.ceil() as i64).map(|y| Crossing {
-            row: y.rem_euclid(i64::from(size[1])) as u32,
-            y: y as f64,
-            triangle: i as u32,
-        });
-        crossings.extend(rows);
-    }
-    crossings.sort_by_key(|c| c.row);
-    let mut sums = vec![0.0; uvs.len()];
-    for group in crossings.chunk_by(|a, b| a.row == b.row) {
-        let row = Row::new(size[0], f64::from(group[0].row), &value);
-        for crossing in group {
-            let corners = triangles[crossing.triangle as usize].as_ref().expect("only those cross");
-            sums[crossing.triangle as usize] += row.integral(corners, crossing.y);
-        }
-    }
-    let mean = |(corners, sum): (&Option<[Point; 3]>, f64)| corners.map(|c| sum / area(&c));
-    triangles.iter().zip(sums).map(mean).collect()
+    let (triangles, of_each) = distinct(uvs);
+    let found = means_within(BUDGET, size, &triangles, value);
+    of_each.into_iter().map(|i| i.map(|i| found[i])).collect()
 }
 
-/// The triangles that can be done, counter-clockwise.
-fn in_texels([width, height]: [u32; 2], uvs: &[[Vec2<f64>; 3]]) -> Vec<Option<[Point; 3]>> {
-    let mut left = BUDGET;
-    let place = |uv: &[Vec2<f64>; 3]| {
-        let [a, b, c] = uv.map(|v| [v.x * f64::from(width), v.y * f64::from(height)]);
-        let corners = if area(&[a, b, c]) < 0.0 { [a, c, b] } else { [a, b, c] };
-        let [across, up] = extent(&corners).map(|[low, high]| high - low);
-        // Rounding leaves an area to a triangle whose corners lie in a line; far from the origin more of it.
-        let far = corners.iter().flatten().fold(1.0, |far: f64, x| far.max(x.abs()));
-        let is_flat = area(&corners) <= 1e3 * f64::EPSILON * far * (across + up);
-        left -= across + up + 2.0;
-        (!is_flat && left >= 0.0).then_some(corners)
-    };
-    uvs.iter().map(place).collect()
-}
-
-/// A row of patches.
-struct Row<'a, F> {
-    width: f64,
-    /// Where its lower texels lie in the map.
-    low: f64,
-    /// Integrals of the patches before each.
-    before: Vec<f64>,
-    value: &'a F,
-}
-
-impl<'a, F: Fn(Point) -> f64> Row<'a, F> {
-    fn new(width: u32, low: f64, value: &'a F) -> Self {
-        let mut before = Vec::with_capacity(width as usize + 1);
-        let mut sum = 0.0;
-        before.push(sum);
-        for x in 0..width {
-            let at = |dx: f64, dy: f64| value([f64::from(x) + 0.5 + dx, low + 0.5 + dy]);
-            sum += 0.25 * (at(-GAUSS, -GAUSS) + at(GAUSS, -GAUSS) + at(-GAUSS, GAUSS) + at(GAUSS, GAUSS));
-            before.push(sum);
-        }
-        Self { width: f64::from(width), low, before, value }
-    }
-
-    /// Integral over the part of a triangle between two rows of texels, of which `y` is the lower.
-    fn integral(&self, corners: &[Point; 3], y: f64) -> f64 {
-        let strip = clip(&clip(corners, 1, y, 1.0), 1, y + 1.0, -1.0);
-        if strip.len() < 3 {
-            return 0.0;
-        }
-        let [across, _] = extent(&strip);
-        let (first, end) = (across[0].floor(), across[1].ceil());
-        // Whole patches have all four corners inside: they lie between what both rows of texels are inside.
-        let whole = match (along(corners, y), along(corners, y + 1.0)) {
-            (Some([a, b]), Some([c, d])) => [a.max(c).ceil(), b.min(d).floor()],
-            _ => [end, end],
-        };
-        let [from, to] = if whole[1] > whole[0] { whole } else { [end, end] };
-        let mut sum = if to > from { self.up_to(to) - self.up_to(from) } else { 0.0 };
-        let mut x = first;
-        while x < end {
-            if x == from && to > from {
-                x = to;
-                continue;
+/// The triangles that have an extent, counter-clockwise, those that whole repeats of the map lie between only once;
+/// and which of them each is.
+fn distinct(uvs: &[[Vec2<f64>; 3]]) -> (Vec<Triangle>, Vec<Option<usize>>) {
+    let mut triangles = vec![];
+    let mut known = HashMap::new();
+    let mut number = |uv: &[Vec2<f64>; 3]| {
+        let corners = counter_clockwise(uv.map(|v| [v.x, v.y]))?;
+        let first = extent(&corners).map(|[low, _]| low.floor());
+        // Adding 0 makes a negative zero positive.
+        let moved = corners.map(|c| [c[0] - first[0] + 0.0, c[1] - first[1] + 0.0]);
+        Some(match known.entry(moved.map(|c| c.map(f64::to_bits))) {
+            Entry::Occupied(entry) => *entry.get(),
+            Entry::Vacant(entry) => {
+                triangles.push(moved);
+                *entry.insert(triangles.len() - 1)
             }
-            let part = clip(&clip(&strip, 0, x, 1.0), 0, x + 1.0, -1.0);
-            sum += self.over(&part, [x, y]);
-            x += 1.0;
-        }
-        sum
-    }
-
-    /// Integral of the patches before a column, counted on over the map's repeats.
-    fn up_to(&self, column: f64) -> f64 {
-        let repeats = (column / self.width).floor();
-        let rest = (column - repeats * self.width) as usize;
-        let whole = self.before[self.before.len() - 1];
-        repeats * whole + self.before[rest.min(self.before.len() - 1)]
-    }
-
-    /// Integral over a convex part of the patch at a corner: a fan of triangles, by the three points that are exact
-    /// for polynomials of degree 2 (Strang & Fix 1973, table 4.1).
-    fn over(&self, part: &[Point], [x, y]: Point) -> f64 {
-        let in_map = (x - (x / self.width).floor() * self.width, self.low);
-        let mut sum = 0.0;
-        for i in 2..part.len() {
-            let fan = [part[0], part[i - 1], part[i]];
-            let at = |k: usize| {
-                let mean =
-                    |axis: usize| (fan[0][axis] + fan[1][axis] + fan[2][axis]) / 6.0 + 0.5 * fan[k][axis];
-                (self.value)([mean(0) - x + in_map.0, mean(1) - y + in_map.1])
-            };
-            sum += area(&fan) * (at(0) + at(1) + at(2)) / 3.0;
-        }
-        sum
-    }
+        })
+    };
+    let of_each = uvs.iter().map(&mut number).collect();
+    (triangles, of_each)
 }
 
-/// Signed area.
-fn area([a, b, c]: &[Point; 3]) -> f64 {
-    0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
+/// The triangle turned so that its area is positive; `None` where it has none.
+fn counter_clockwise([a, b, c]: Triangle) -> Option<Triangle> {
+    let corners = if area(&[a, b, c]) < 0.0 { [a, c, b] } else { [a, b, c] };
+    let [across, up] = extent(&corners).map(|[low, high]| high - low);
+    // Rounding leaves an area to a triangle whose corners lie in a line; far from the origin more of it.
+    let far = corners.iter().flatten().fold(across.max(up), |far: f64, x| far.max(x.abs()));
+    (area(&corners) > 1e3 * f64::EPSILON * far * (across + up)).then_some(corners)
 }
 
-/// Least and greatest of both coordinates.
-fn extent(points: &[Point]) -> [[f64; 2]; 2] {
-    [0, 1].map(|axis| {
-        let none = [f64::INFINITY, f64::NEG_INFINITY];
-        points.iter().fold(none, |[low, high], p| [low.min(p[axis]), high.max(p[axis])])
-    })
+/// The means over triangles; those that would cross too many rows and columns see the map in coarser cells.
+fn means_within(
+    budget: f64,
+    size: [u32; 2],
+    triangles: &[Triangle],
+    value: impl Fn(Point) -> f64,
+) -> Vec<f64> {
+    let is_within = |size, list: &[Triangle]| list.iter().map(|t| crossed(size, t)).sum::<f64>() <= budget;
+    if is_within(size, triangles) {
+        return exact_means(size, triangles, value);
+    }
+    let share = budget / triangles.len() as f64;
+    let (fine, wide): (Vec<Triangle>, Vec<Triangle>) =
+        triangles.iter().partition(|t| crossed(size, t) <= share);
+    let mut cells = size;
+    while cells != [1, 1] && !is_within(cells, &wide) {
+        cells = cells.map(|n| n.div_ceil(2));
+    }
+    let coarse = coarser(size, cells, &value);
+    let mut of_fine = exact_means(size, &fine, value).into_iter();
+    let in_cell = |[x, y]: Point| {
+        let [x, y] = [(x as u32).min(cells[0] - 1), (y as u32).min(cells[1] - 1)];
+        coarse[(x + y * cells[0]) as usize]
+    };
+    // Who spans so many repeats that even one cell for each is too much sees as much of all of the map.
+    let of_wide =
+        if cells == [1, 1] { vec![coarse[0]; wide.len()] } else { exact_means(cells, &wide, in_cell) };
+    let mut of_wide = of_wide.into_iter();
+    let of_each = |t| if crossed(size, t) <= share { of_fine.next() } else { of_wide.next() };
+    triangles.iter().filter_map(of_each).collect()
 }
 
-/// From where to where a triangle covers a level line.
-fn along(corners: &[Point; 3], y: f64) -> Option<[f64; 2]> {
-    let mut found: Option<[f64; 2]> = None;
-    for i in 0..3 {
-        let (p, q) = (corners[i], corners[(i + 1) % 3]);
-        if (p[1] <= y) != (q[1] <= y) {
-            let x = p[0] + (q[0] - p[0]) * ((y - p[1]) / (q[1] - p[1]));
-            found = Some(found.map_or([x, x], |[low, high]| [low.min(x), high.max(x)]));
+/// How many rows and columns of a map of some size a triangle crosses.
+fn crossed(size: [u32; 2], triangle: &Triangle) -> f64 {
+    let [across, up] = extent(triangle).map(|[low, high]| high - low);
+    across * f64::from(size[0]) + up * f64::from(size[1])
+}
+
+/// The means of a map's cells, fewer than its patches, of which each counts where it lies.
+fn coarser(size: [u32; 2], cells: [u32; 2], value: &impl Fn(Point) -> f64) -> Vec<f64> {
+    let [across, up] = [0, 1].map(|axis| f64::from(cells[axis]) / f64::from(size[axis]));
+    let mut means = vec![0.0; cells[0] as usize * cells[1] as usize];
+    for y in 0..size[1] {
+        let row = Row::new(size[0], f64::from(y), value);
+        let columns: Vec<f64> = (0..=cells[0]).map(|x| row.up_to(f64::from(x) / across)).collect();
+        let [low, high] = [y, y + 1].map(|y| f64::from(y) * up);
+        for k in low as u32..(high.ceil() as u32).min(cells[1]) {
+            let part = high.min(f64::from(k + 1)) - low.max(f64::from(k));
+            let cells = means[(k * cells[0]) as usize..].iter_mut();
+            for (mean, ends) in cells.zip(columns.windows(2)) {
+                *mean += part * across * (ends[1] - ends[0]);
+            }
         }
     }
-    found
+    means
 }
 
-/// The part of a convex polygon where `side` times a coordinate's excess over `at` is not negative (Sutherland &
-/// Hodgman 1974).
-fn clip(points: &[Point], axis: usize, at: f64, side: f64) -> Vec<Point> {
-    let mut kept = Vec::with_capacity(points.len() + 1);
-    for (i, &p) in points.iter().enumerate() {
-        let q = points[(i + 1) % points.len()];
-        let (dp, dq) = (side * (p[axis] - at), side * (q[axis] - at));
-        if dp >= 0.0 {
-            kept.push(p);
-        }
-        if (dp < 0.0) != (dq < 0.0) {
-            let t = dp / (dp - dq);
-            let mut cut = [p[0] + (q[0] - p[0]) * t, p[1] + (q[1] - p[1]) * t];
-            cut[axis] = at;
-            kept.push(cut);
+/// The means over triangles, that begin in the first repeat, by all the map's patches.
+fn exact_means(size: [u32; 2], triangles: &[Triangle], value: impl Fn(Point) -> f64) -> Vec<f64> {
+    let in_texels = |t: &Triangle| t.map(|c| [c[0] * f64::from(size[0]), c[1] * f64::from(size[1])]);
+    let triangles: Vec<Triangle> = triangles.iter().map(in_texels).collect();
+    let rows = |(triangle, corners): (u32, &Triangle)| {
+        let [_, [low, high]] = extent(corners);
+        (low as u32..high.ceil() as u32).map(move |y| Crossing { y, triangle })
+    };
+    let mut crossings: Vec<Crossing> = (0..).zip(&triangles).flat_map(rows).collect();
+    let row_of = |c: &Crossing| c.y % size[1];
+    crossings.sort_unstable_by_key(|c| (row_of(c), c.triangle));
+    let mut sums = vec![0.0; triangles.len()];
+    for group in crossings.chunk_by(|a, b| row_of(a) == row_of(b)) {
+        let row = Row::new(size[0], f64::from(row_of(&group[0])), &value);
+        for crossing in group {
+            let i = crossing.triangle as usize;
+            sums[i] += row.integral(&triangles[i], f64::from(crossing.y));
         }
     }
-    kept
+    triangles.iter().zip(sums).map(|(t, sum)| sum / area(t)).collect()
 }
 
 #[cfg(test)]
@@ -260,14 +211,69 @@ mod tests {
         }
     }
 
+    /// A square of `n` by `n` repeats, cut into as many squares of two triangles each way as is asked for.
+    fn quilt(squares: u32, n: f64) -> Vec<[Vec2<f64>; 3]> {
+        let at = |k: u32| n * f64::from(k) / f64::from(squares);
+        let square = |i: u32| {
+            let [u0, u1] = [i % squares, i % squares + 1].map(at);
+            let [v0, v1] = [i / squares, i / squares + 1].map(at);
+            [uv([[u0, v0], [u1, v0], [u1, v1]]), uv([[u0, v0], [u1, v1], [u0, v1]])]
+        };
+        (0..squares * squares).flat_map(square).collect()
+    }
+
+    /// However little may be done, all of a surface together keeps its mean to rounding, and parts of it that span some
+    /// repeats stay within some hundredths of theirs.
     #[test]
-    fn what_has_no_extent_or_too_much_has_no_mean() {
+    fn coarser_means_lose_nothing() {
+        let triangles: Vec<Triangle> = quilt(8, 21.0).iter().map(|t| t.map(|v| [v.x, v.y])).collect();
+        let exact = exact_means(SIZE, &triangles, value);
+        let mean = |list: &[f64]| list.iter().sum::<f64>() / list.len() as f64;
+        let whole = mean(&exact);
+        for budget in [4e3, 1.5e3, 1.0] {
+            let found = means_within(budget, SIZE, &triangles, value);
+            assert!((mean(&found) / whole - 1.0).abs() < 1e-12, "{budget}: {} {whole}", mean(&found));
+            let off = exact.iter().zip(&found).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            assert!(off > 0.0 && off < 0.06 * whole, "{budget}: {}", off / whole);
+        }
+    }
+
+    /// The value is asked for a bounded number of times, of any number of triangles and repeats; the same part of the
+    /// map is worked on once.
+    #[test]
+    fn work_is_bounded() {
+        let asked = |uvs: &[[Vec2<f64>; 3]]| {
+            let count = std::cell::Cell::new(0u64);
+            let found = means(SIZE, uvs, |p| {
+                count.set(count.get() + 1);
+                value(p)
+            });
+            assert!(found.iter().all(Option::is_some));
+            count.get()
+        };
+        let one = quilt(1, 1.0);
+        let copies: Vec<_> = (0..1000)
+            .flat_map(|k| one.iter().map(move |t| t.map(|p| p + Vec2::new(f64::from(k), -5.0))))
+            .collect();
+        assert_eq!(asked(&copies), asked(&one));
+        // All the map's patches twice by four values, and some for each of a budget's rows and columns.
+        for (squares, repeats) in [(1, 1e9), (30, 3e6)] {
+            assert!(asked(&quilt(squares, repeats)) < 2 * 4 * 35 + 5 * BUDGET as u64);
+        }
+    }
+
+    #[test]
+    fn what_has_no_extent_has_no_mean() {
         let flat = [[0.1, 0.1], [0.2, 0.2], [0.3, 0.3]];
         let point = [[0.5, 0.5]; 3];
-        let huge = [[0.0, 0.0], [1e9, 0.0], [0.0, 1e9]];
         let none = [[f64::NAN, 0.0], [1.0, 0.0], [0.0, f64::INFINITY]];
+        let endless = [[0.0, 0.0], [1e200, 0.0], [0.0, 1e200]];
+        let huge = [[0.0, 0.0], [1e9, 0.0], [0.0, 1e9]];
         let small = [[0.0, 0.0], [0.5, 0.0], [0.0, 0.5]];
-        let found = means(SIZE, &[small, flat, point, none, huge].map(uv), value);
-        assert!(found[0].is_some() && found[1..].iter().all(Option::is_none), "{found:?}");
+        let found = means(SIZE, &[small, huge, flat, point, none, endless].map(uv), value);
+        assert!(
+            found[..2].iter().all(Option::is_some) && found[2..].iter().all(Option::is_none),
+            "{found:?}"
+        );
     }
 }

@@ -53,7 +53,7 @@ impl Modulation {
             let uv = Vec2::new((x / f64::from(size[0])) as Real, (y / f64::from(size[1])) as Real);
             eye.luminance(texture.rgb(uv))
         };
-        // A map may be finer than any grid; where its mean cannot be had, the cells' is what there is.
+        // A map may be finer than any grid. Where a triangle is a line or a point of it, the cells' mean is what there is.
         let of_cells = |(n, cells): &(usize, Vec<f64>)| cells.iter().sum::<f64>() / (n * n) as f64;
         let exact = map_mean::means(size, uvs, at);
         let means: Vec<f64> = exact

@@ -252,27 +252,37 @@ fn quilt(n: u32) -> (Vec<[Vec3d; 3]>, Vec<[Vec2<f64>; 3]>) {
     (faces.iter().map(|f| f.map(place)).collect(), faces.iter().map(|f| f.map(Vec2::from)).collect())
 }
 
-/// Maps finer than the grids that draw points: stripes, and a matrix of diodes, have the flux of their texels' mean.
+/// Maps finer than the grids that draw points: stripes, and a matrix of diodes, have the flux of their texels' mean;
+/// the matrix also in very many repeats, and on 100,000 triangles that see more than all of it each.
 #[test]
 fn fine_textures_have_the_flux_of_their_texels() {
     const SIDE: usize = 1024;
+    const DIODES: &str = "every eighth texel each way";
     type IsLit = fn(usize, usize) -> bool;
     let patterns: [(&str, IsLit, f64); 4] = [
         ("every fourth column", |x, _| x % 4 == 0, 0.25),
         ("the columns beside them", |x, _| x % 4 == 1, 0.25),
-        ("every eighth texel each way", |x, y| x % 8 == 0 && y % 8 == 0, 1.0 / 64.0),
+        (DIODES, |x, y| x % 8 == 0 && y % 8 == 0, 1.0 / 64.0),
         ("one row", |_, y| y == 300, 1.0 / 1024.0),
     ];
     for (name, is_lit, part) in patterns {
         let texels = (0..SIDE * SIDE).map(|i| if is_lit(i % SIDE, i / SIDE) { 255 } else { 0 }).collect();
         let image = Image { width: 1024, height: 1024, channels: 1, pixels: Pixels::U8(texels) };
         let texture = Texture::new(std::sync::Arc::new(image), Curve::IDENTITY, 0);
-        for n in [1, 32] {
+        let mut cases = vec![(1, 1.0), (32, 1.0)];
+        if name == DIODES {
+            cases.extend([(1, 20_000.3), (224, 224.0 * 1.3)]);
+        }
+        for (n, repeats) in cases {
             let (corners, uvs) = quilt(n);
+            let uvs: Vec<_> = uvs.iter().map(|t| t.map(|p| p * repeats)).collect();
             let plain = AreaLight::new(Spectrum::blackbody(2700.0, 1.0), &corners);
             let flux = plain.flux();
             let found = plain.with_texture(texture.clone(), &uvs).flux() / flux;
-            assert!((found / part - 1.0).abs() < 1e-4, "{name}, {n} columns: {found} instead of {part}");
+            assert!(
+                (found / part - 1.0).abs() < 1e-4,
+                "{name}, {n} columns, {repeats} repeats: {found} instead of {part}"
+            );
         }
     }
 }
