@@ -327,4 +327,7 @@ fn files_that_are_no_lamps_are_named_with_their_place() {
     assert_eq!(codes(set)[0].0, "E0307");
     // Beyond the manual: a lamp that shines to both sides.
     assert!(codes(&profile("reject_vertical_0_180.ies")).is_empty());
+    // The light of a whole lamp from less than an atom: more radiance than numbers hold.
+    let tiny = loaded(&text(&profile("lambert_1000cd.ies")).replace("<scale>0.1<", "<scale>1e-14<"));
+    assert_eq!(tiny.sink.diagnostics().iter().map(|d| d.code).collect::<Vec<_>>(), ["E0203"]);
 }

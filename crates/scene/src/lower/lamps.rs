@@ -115,21 +115,28 @@ fn with_profile(
             .hint("take one of them out"),
         );
     }
-    let Some(photometry) = read_profile(profile, context) else { return lamp };
-    lamp.clone().with_profile(photometry, x_axis).unwrap_or_else(|| {
-        if context.sink.error_count() == errors_before {
-            let message = "a lamp without luminance or area cannot be scaled to the flux of a file";
-            context.sink.push(no_flux(profile, message));
-        }
-        lamp
-    })
+    let Some((photometry, largest_cd)) = read_profile(profile, context) else { return lamp };
+    if let Some(lamp) = lamp.clone().with_profile(photometry, x_axis) {
+        let largest = lamp.radiance().scaled(largest_cd / lamp.area());
+        read::refuse_excess(&largest, profile.span, context.sink);
+        return lamp;
+    }
+    if context.sink.error_count() == errors_before {
+        let message = "a lamp without luminance or area cannot be scaled to the flux of a file";
+        context.sink.push(no_flux(profile, message));
+    }
+    lamp
 }
 
-fn read_profile(node: &Node, context: &mut Context) -> Option<Profile> {
+/// The profile of a file, and its largest intensity in cd.
+fn read_profile(node: &Node, context: &mut Context) -> Option<(Profile, f64)> {
     let path = node.text("path");
     let file = context.read(&path.value, path.span)?;
     match ies::decode(&file.bytes) {
-        Ok(p) => Some(Profile::new(&p.vertical_deg, &p.horizontal_deg, &p.candela)),
+        Ok(p) => {
+            let largest = p.candela.iter().copied().fold(0.0, f64::max);
+            Some((Profile::new(&p.vertical_deg, &p.horizontal_deg, &p.candela), largest))
+        }
         Err(error) => {
             context.sink.push(
                 Diagnostic::error(
