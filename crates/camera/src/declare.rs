@@ -62,7 +62,9 @@ pub static CAMERA: Block = Block::new(
             Kind::Text,
             Presence::Default("D65"),
             "Which light looks white: A, B, C, D50, D55, D65, D75, E, F1 to F12, or two numbers, the \
-             chromaticity x y.",
+             chromaticity x y. Names stand for the whites of their spectra in steps of 1 nm, to 1e-4; for F11 CIE 015 \
+             prints one of steps of 5 nm, which differs by 2e-4. The white of F10 is the one published, which is 1e-3 \
+             from its spectrum's.",
         ),
         Field::new(
             "exposure_duration",

@@ -247,6 +247,14 @@ fn check_files(parsed: &Arguments) -> Result<(), String> {
         (_, true, _) if parsed.output.is_none() => {
             Err("-merge needs the file to write: --merge A.igi B.igi -o SUM.igi".to_owned())
         }
+        (_, true, _)
+            if !parsed.output.as_ref().is_some_and(|path| path.to_ascii_lowercase().ends_with(".igi")) =>
+        {
+            Err("-merge writes a film: the name behind -o must end with .igi".to_owned())
+        }
+        (_, _, true) if parsed.output.is_some() => {
+            Err("-o is for renders; the third file of -tonemap is the picture".to_owned())
+        }
         (files, _, true) if files.len() != 3 => {
             Err("-tonemap needs a scene, a film and a picture: --tonemap SCENE.igs FILM.igi PICTURE.png"
                 .to_owned())
@@ -393,7 +401,9 @@ mod tests {
         );
         assert!(error(&["--merge", "a.igi", "-o", "b.igi"]).contains("two or more"));
         assert!(error(&["--merge", "a.igi", "b.igi"]).contains("-o SUM.igi"));
+        assert!(error(&["--merge", "a.igi", "b.igi", "-o", "a.igs"]).contains("end with .igi"));
         assert!(error(&["--tonemap", "a.igs", "a.igi"]).contains("PICTURE.png"));
+        assert!(error(&["--tonemap", "a.igs", "a.igi", "b.png", "-o", "c.png"]).contains("third file"));
         assert_eq!(error(&["--check=1"]), "-check takes no value");
         assert_eq!(error(&["-n", "m"]), "-n is not in this version yet");
         assert!(error(&["-seed", "-3"]).contains("whole number"));

@@ -187,7 +187,8 @@ pub static RENDERER_SETTINGS: Block = Block::new(
             "render_foreground_alpha",
             "false",
             "Whether the picture shows only what hides the background: white where there is something, black \
-             where the surroundings are seen, and grey in between along edges. Rendered by camera rays alone, \
+             where the surroundings are seen, and grey in between along edges (linear in the EXR, sRGB-encoded in \
+             the PNG as all pictures are, so that half covered is 188 of 255). Rendered by camera rays alone, \
              whatever `metropolis`, `hybrid`, `bidirectional` and `max_depth` say.",
         ),
         Field::new(
