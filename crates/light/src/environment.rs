@@ -7,7 +7,6 @@ use indigo_math::distribution::AliasTable;
 use indigo_math::warp::{INV_PI, concentric_disk};
 use indigo_math::{Float, Frame, Real, Vec3, Vec3d};
 use indigo_spectrum::{SampledSpectrum, SampledWavelengths};
-use std::f64::consts::PI;
 
 /// The surroundings of a scene.
 ///
@@ -81,12 +80,9 @@ impl Environment {
         self.portals.as_ref()
     }
 
-    /// Luminous flux in lm that enters the scene: across its sphere, or by a quarter of the portals' area, which
-    /// is what their fronts show in the mean over all directions.
-    pub fn flux(&self) -> f64 {
-        let radius = self.radius.to_f64();
-        let across = self.portals.as_ref().map_or(PI * radius * radius, |p| 0.25 * p.area());
-        self.lights.iter().map(Distant::total_luminance).sum::<f64>() * across
+    /// Whether there is any light.
+    pub fn shines(&self) -> bool {
+        self.lights.iter().any(|light| light.total_luminance() > 0.0)
     }
 
     /// Whether receivers draw any of its lights.

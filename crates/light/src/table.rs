@@ -1,8 +1,8 @@
 //! All lights of a scene: choosing one, drawing light from it, and the density of having done so.
 //!
 //! Lamps are chosen by their power. The environment's power grows with the scene's extent, and says nothing of what
-//! gets to a receiver, least of all in a room: beside lamps it is drawn for every other receiver, and between a
-//! quarter and three quarters of all light paths start from it. So neither can take the other's draws.
+//! gets to a receiver, least of all in a room: beside lamps it gets half of the draws, and half of the light paths
+//! begin with it. So whichever of the two matters, it has half of the samples that it would have alone.
 
 use crate::area::AreaLight;
 use crate::environment::Environment;
@@ -18,23 +18,21 @@ use indigo_spectrum::{SampledSpectrum, SampledWavelengths};
 pub struct LightTable {
     lamps: Vec<AreaLight>,
     environment: Option<Environment>,
-    /// Of light that leaves lamps or enters the scene: over the lamps by power, and the environment after them.
+    /// Over the lamps.
     by_power: AliasTable,
-    /// Of light that is drawn for receivers: the same, but without the environment where none of it is drawn.
-    for_receivers: AliasTable,
+    /// The environment's share of the light paths that begin, and of the draws for receivers; the rest is the lamps'.
+    share_of_emission: f64,
+    share_of_draws: f64,
     /// For each object of the scene the lamp that it is, or [`NO_LAMP`].
     of_object: Vec<u32>,
 }
 
 const NO_LAMP: u32 = u32::MAX;
 
-/// A choice among lamps by power, and the environment after them, if there is one, which has some share of all.
-fn with_environment(powers: &[f64], share: Option<f64>) -> AliasTable {
-    let Some(share) = share else { return AliasTable::new(powers) };
-    let total: f64 = powers.iter().sum();
-    // Lamps that are all black leave everything to the environment.
-    let environment = if total > 0.0 && total.is_finite() { total * share / (1.0 - share) } else { 1.0 };
-    AliasTable::new(&powers.iter().copied().chain([environment]).collect::<Vec<f64>>())
+/// What was chosen, with a fresh number in [0, 1).
+enum Chosen {
+    Lamp(usize, f64),
+    Environment(f64),
 }
 
 impl LightTable {
@@ -59,14 +57,14 @@ impl LightTable {
     ) -> Self {
         let environment = (!distant.is_empty()).then(|| Environment::new(distant, sphere, portals));
         let powers: Vec<f64> = lamps.iter().map(AreaLight::flux).collect();
-        let choice = |environment_share: Option<f64>| with_environment(&powers, environment_share);
-        let share = |e: &Environment| {
-            let total = powers.iter().sum::<f64>() + e.flux();
-            0.25 + if total > 0.0 && total.is_finite() { 0.5 * e.flux() / total } else { 0.25 }
-        };
+        // Lamps that are all black leave everything to the environment.
+        let beside_lamps = if powers.iter().any(|&p| p > 0.0) { 0.5 } else { 1.0 };
+        let lit = environment.as_ref().filter(|e| e.shines());
+        let share = |has_part: bool| if has_part { beside_lamps } else { 0.0 };
         Self {
-            by_power: choice(environment.as_ref().map(share)),
-            for_receivers: choice(environment.as_ref().and_then(|e| e.is_drawn().then_some(0.5))),
+            by_power: AliasTable::new(&powers),
+            share_of_emission: share(lit.is_some()),
+            share_of_draws: share(lit.is_some_and(Environment::is_drawn)),
             of_object: object_lamps.map(|l| l.unwrap_or(NO_LAMP)).collect(),
             lamps,
             environment,
@@ -94,24 +92,35 @@ impl LightTable {
         (i != NO_LAMP).then(|| (i as usize, &self.lamps[i as usize]))
     }
 
-    /// Probability of choosing the environment, of one of the tables.
+    /// Chooses among the lamps and the environment, which has some share; `None` where there is neither.
     #[inline]
-    fn environment_chance(&self, table: &AliasTable) -> Real {
-        if table.len() > self.lamps.len() { table.probability(self.lamps.len()) } else { 0.0 }
+    fn choose(&self, share: f64, u: [Real; 4]) -> Option<Chosen> {
+        let u = refined(u[0], u[3]);
+        if u < share {
+            return Some(Chosen::Environment(u / share));
+        }
+        (!self.lamps.is_empty()).then(|| {
+            let (i, _, rest) = self.by_power.sample((u - share) / (1.0 - share));
+            Chosen::Lamp(i, rest)
+        })
+    }
+
+    /// Probability of choosing a lamp, beside an environment that has some share.
+    #[inline]
+    fn lamp_chance(&self, share: f64, i: usize) -> Real {
+        (1.0 - share) as Real * self.by_power.probability(i)
     }
 
     /// Draws light towards a receiver: `u` chooses a light, a point on it or a direction towards it (two
     /// numbers), and the choice's further digits ([`refined`]).
     #[inline]
     pub fn sample(&self, to: &Receiver, u: [Real; 4], lambda: &SampledWavelengths) -> Option<LightSample> {
-        if self.for_receivers.is_empty() {
-            return None;
-        }
-        let (i, chance, rest) = self.for_receivers.sample(refined(u[0], u[3]));
         let at = [u[1], u[2]];
-        let Some(lamp) = self.lamps.get(i) else {
-            return self.sample_environment(to, rest, at, lambda);
+        let (i, rest) = match self.choose(self.share_of_draws, u)? {
+            Chosen::Lamp(i, rest) => (i, rest),
+            Chosen::Environment(rest) => return self.sample_environment(to, rest, at, lambda),
         };
+        let lamp = &self.lamps[i];
         let mut point = lamp.sample_point(rest, at)?;
         let front = point.n;
         let way = point.p - to.p;
@@ -129,9 +138,9 @@ impl LightTable {
         Some(LightSample {
             wi,
             radiance: lamp.emitted(point.triangle, point.bary, -wi, lambda),
-            pdf: chance * over_area * distance2 / cos,
+            pdf: self.lamp_chance(self.share_of_draws, i) * over_area * distance2 / cos,
             pdf_emission: EmissionPdf {
-                first: self.by_power.probability(i) * over_area,
+                first: self.lamp_chance(self.share_of_emission, i) * over_area,
                 second: lamp.pdf_direction(point.triangle, front, -wi),
             },
             point: Some(point),
@@ -183,7 +192,7 @@ impl LightTable {
         if cos.is_nan() || cos <= 0.0 {
             return 0.0;
         }
-        self.for_receivers.probability(i) * lamp.pdf_point(hit.triangle, hit.bary) * distance2 / cos
+        self.lamp_chance(self.share_of_draws, i) * lamp.pdf_point(hit.triangle, hit.bary) * distance2 / cos
     }
 
     /// Densities with which [`sample_emission`](Self::sample_emission) draws light that leaves a point
@@ -192,7 +201,7 @@ impl LightTable {
     pub fn pdf_emission_object(&self, hit: &EmitterHit, wo: Vec3) -> EmissionPdf {
         let Some((i, lamp)) = self.lamp(hit.object) else { return EmissionPdf::NEVER };
         EmissionPdf {
-            first: self.by_power.probability(i) * lamp.pdf_point(hit.triangle, hit.bary),
+            first: self.lamp_chance(self.share_of_emission, i) * lamp.pdf_point(hit.triangle, hit.bary),
             second: lamp.pdf_direction(hit.triangle, hit.n, wo),
         }
     }
@@ -206,9 +215,10 @@ impl LightTable {
     /// Density (1/sr) with which [`sample`](Self::sample) draws a direction of the environment.
     #[inline]
     pub fn pdf_environment(&self, to: &Receiver, wi: Vec3) -> Real {
-        let chance = self.environment_chance(&self.for_receivers);
         match &self.environment {
-            Some(environment) if chance > 0.0 => chance * environment.pdf(to, wi),
+            Some(environment) if self.share_of_draws > 0.0 => {
+                self.share_of_draws as Real * environment.pdf(to, wi)
+            }
             _ => 0.0,
         }
     }
@@ -219,7 +229,7 @@ impl LightTable {
     pub fn pdf_emission_environment(&self, towards: Vec3, through: Vec3) -> EmissionPdf {
         let Some(environment) = &self.environment else { return EmissionPdf::NEVER };
         let pdf = environment.pdf_emission(towards, through);
-        EmissionPdf { first: self.environment_chance(&self.by_power) * pdf.first, ..pdf }
+        EmissionPdf { first: self.share_of_emission as Real * pdf.first, ..pdf }
     }
 
     /// Draws light that leaves a lamp or enters the scene: `u` as for [`sample`](Self::sample), `v`
@@ -231,18 +241,16 @@ impl LightTable {
         v: [Real; 2],
         lambda: &SampledWavelengths,
     ) -> Option<Emission> {
-        if self.by_power.is_empty() {
-            return None;
-        }
-        let (i, chance, rest) = self.by_power.sample(refined(u[0], u[3]));
         let at = [u[1], u[2]];
-        let Some(lamp) = self.lamps.get(i) else {
-            return self.sample_emission_environment(rest, at, v, lambda);
+        let (i, rest) = match self.choose(self.share_of_emission, u)? {
+            Chosen::Lamp(i, rest) => (i, rest),
+            Chosen::Environment(rest) => return self.sample_emission_environment(rest, at, v, lambda),
         };
+        let lamp = &self.lamps[i];
         let mut point = lamp.sample_point(rest, at)?;
         let direction = lamp.sample_direction(&point, v);
         let pdf = EmissionPdf {
-            first: chance * lamp.pdf_point(point.triangle, point.bary),
+            first: self.lamp_chance(self.share_of_emission, i) * lamp.pdf_point(point.triangle, point.bary),
             second: lamp.pdf_direction(point.triangle, point.n, direction),
         };
         if direction.dot(point.n) < 0.0 {
@@ -285,7 +293,7 @@ impl LightTable {
     #[inline]
     pub fn pdf_sample_of(&self, emission: &Emission, to: &Receiver) -> Real {
         let Some(point) = &emission.point else { return self.pdf_environment(to, -emission.direction) };
-        let lamp = &self.lamps[emission.lamp as usize];
-        self.for_receivers.probability(emission.lamp as usize) * lamp.pdf_point(point.triangle, point.bary)
+        let i = emission.lamp as usize;
+        self.lamp_chance(self.share_of_draws, i) * self.lamps[i].pdf_point(point.triangle, point.bary)
     }
 }

@@ -252,7 +252,7 @@ fn light_enters_by_a_small_portal_of_a_wide_scene() {
 #[test]
 fn lamps_and_environment_share_the_draws() {
     let to = Receiver::facing(P, N);
-    for (radius, value) in [(1.0, 1e-6), (1e5, 1e-6), (1.0, 1e6), (1e5, 1e6), (1.0, 0.0)] {
+    for (radius, value) in [(1.0, 1e-6), (1e5, 1e-6), (1.0, 1e6), (1e5, 1e6), (1e5, 0.0)] {
         let sky = EnvMap::new(Layout::LatLong, 2, 1, vec![[value; 3]; 2]).into();
         let lamp = squares()[1].light();
         let table = LightTable::new(vec![lamp], vec![sky], [Some(0)].into_iter(), (Vec3d::ZERO, radius));
@@ -265,9 +265,9 @@ fn lamps_and_environment_share_the_draws() {
             let sent = table.sample_emission([a, b, c, d], [e, f], &wavelengths());
             lamps[1] += u32::from(sent.is_some_and(|s| s.point.is_some()));
         }
-        // Of 1000, the first is 500 and the second between 250 and 750, each within 5 standard deviations.
-        assert!(lamps[0].abs_diff(500) < 80, "{radius} m, {value}: {lamps:?}");
-        assert!((180..=820).contains(&lamps[1]), "{radius} m, {value}: {lamps:?}");
+        // Half of 1000, within 5 standard deviations, or all beside what is black; no draw of the lamp is in vain.
+        let (expected, within) = if value > 0.0 { (500, 80) } else { (1000, 1) };
+        assert!(lamps.iter().all(|n| n.abs_diff(expected) < within), "{radius} m, {value}: {lamps:?}");
     }
 }
 

@@ -87,7 +87,9 @@ fn openings_behind_panes_are_found() {
         "<specular><transparent>true</transparent><internal_medium_name>glass</internal_medium_name></specular>",
         "<null_material/>",
         "<diffuse_transmitter><albedo_spectrum><uniform><value>0.5</value></uniform></albedo_spectrum></diffuse_transmitter>",
+        "<blend><blend_factor>0.5</blend_factor><a_name>white</a_name><b_name>paper</b_name></blend>",
     ];
+    let paper = format!("<material><name>paper</name>{}</material>", kinds[2]);
     let pane = |kind: &str| {
         let sheet = |name: &str, y: i32| quad(name, [[-2, y, -2], [-2, y, 2], [2, y, 2], [2, y, -2]]);
         let sheets = sheet("inner", -2)
@@ -95,7 +97,7 @@ fn openings_behind_panes_are_found() {
         let material = format!("<material><name>pane</name>{kind}</material>");
         let sheets = sheets.replace(">white<", ">pane<");
         format!(
-            "{glass}{material}{sheets}{}{}{}",
+            "{glass}{paper}{material}{sheets}{}{}{}",
             placed("model", "inner"),
             placed("model", "outer"),
             placed("exit_portal", "north")
@@ -107,7 +109,8 @@ fn openings_behind_panes_are_found() {
         assert_eq!(of_openings.len(), 1, "{kind}: {found:?}");
         assert!(of_openings[0].1.contains("beside the exit portals"), "{found:?}");
     }
-    // A wall closes it.
+    // What only reflects closes it, and so does a wall.
+    assert_eq!(codes(&pane(&kinds[0].replace(">true<", ">false<")).replace(&paper, ""), SKY), []);
     let wall = placed("model", "south") + &placed("exit_portal", "north");
     assert_eq!(codes(&wall, SKY), []);
 }

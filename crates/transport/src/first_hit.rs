@@ -38,8 +38,8 @@ impl FirstHits {
             let lambda = SampledWavelengths::sample(wavelength);
             let camera = scene.camera.ray(position, Vec2::new(lens_x, lens_y));
             let (sensor, light) = (Sensor::new(&lambda), illuminant::d65(&lambda));
-            add(&mut sum.white, sensor.xyz(&light));
             if let Some(event) = first_event(&mut self.memory, scene, &mut numbers, &lambda, &camera) {
+                add(&mut sum.white, sensor.xyz(&light));
                 add(&mut sum.albedo, sensor.xyz(&(event.albedo * light)));
                 sum.add(ray, &event);
             }
@@ -50,7 +50,7 @@ impl FirstHits {
 
 #[derive(Default)]
 struct Sum {
-    /// Light of the albedos, and of white in their place.
+    /// Light of the albedos that are met, and of white in their place.
     albedo: [f64; 3],
     white: [f64; 3],
     normal: [f64; 3],
@@ -75,13 +75,16 @@ impl Sum {
 
     fn mean(&self) -> FirstHit {
         let white = adaptation::xyz_of_white(adaptation::D65_XY).to_array();
-        let depth_m = if self.events > 0.0 { (self.depth_m / self.events) as f32 } else { FirstHit::FAR };
+        if self.events == 0.0 {
+            return FirstHit::NOTHING;
+        }
+        let coverage = self.events / RAYS as f64;
         FirstHit {
             // Over white at the same wavelengths, so that what is grey comes out grey, without noise.
-            albedo: [0, 1, 2].map(|c| (self.albedo[c] / self.white[c] * white[c]) as f32),
+            albedo: [0, 1, 2].map(|c| (self.albedo[c] / self.white[c] * white[c] * coverage) as f32),
             normal: self.normal.map(|v| (v / RAYS as f64) as f32),
-            coverage: (self.events / RAYS as f64) as f32,
-            depth_m,
+            coverage: coverage as f32,
+            depth_m: (self.depth_m / self.events) as f32,
             object: most_frequent(&self.objects),
             material: most_frequent(&self.materials),
         }

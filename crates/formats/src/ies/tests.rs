@@ -59,22 +59,15 @@ fn what_is_wrong_is_named_with_its_place() {
         &text(HEAD, "1 1 1 3 1 1 2 0 0 0 1 1 1\n0 0 90"),
         "6:3: expected a vertical angle: larger than the one before, found '0'",
     );
-    refused(
-        &with("100 50 0", "100 5e20 0"),
-        "9:5: expected candelas: 0 or more, and with all factors 1e12 at most, found '5e20'",
-    );
-    refused(
-        &with("100 50 0", "100 -50 0"),
-        "9:5: expected candelas: 0 or more, and with all factors 1e12 at most, found '-50'",
-    );
-    refused(
-        &with("100 50 0", "100 nan 0"),
-        "9:5: expected candelas: 0 or more, and with all factors 1e12 at most, found 'nan'",
-    );
-    refused(
-        &with("100 50 0", "100 50"),
-        "10:1: expected candelas: 0 or more, and with all factors 1e12 at most, found the end of the file",
-    );
+    let candelas = "expected candelas: 0 or more, and with all factors 1e12 at most, found";
+    for (values, place, found) in [
+        ("100 5e20 0", "9:5", "'5e20'"),
+        ("100 -50 0", "9:5", "'-50'"),
+        ("100 nan 0", "9:5", "'nan'"),
+        ("100 50", "10:1", "the end of the file"),
+    ] {
+        refused(&with("100 50 0", values), &format!("{place}: {candelas} {found}"));
+    }
     refused(&with("0.9 0.5", "0 0.5"), "6:1: expected the ballast factor: above 0, found '0'");
     refused(
         &with("2 3 1", "2 99999999 1"),

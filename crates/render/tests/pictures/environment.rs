@@ -87,10 +87,17 @@ fn one_texel_of_an_angular_map_lights_by_its_solid_angle() {
     }
 }
 
+/// A background, which is found by scattering alone, and a map, which is drawn.
 #[test]
-fn an_even_sky_lights_by_pi() {
+fn even_surroundings_light_by_pi() {
     let scene = lit(&background(&uniform(1e6)), ("", vec![]));
-    assert_lit("even sky", scene, PI * 1e6 * NITS_PER_UNIFORM, 64, 2e-3);
+    assert_lit("background", scene, PI * 1e6 * NITS_PER_UNIFORM, 64, 2e-3);
+    let light = format!(
+        "<env_map><spherical><path>map.float</path><width>16</width><gain>{GAIN}</gain></spherical></env_map>"
+    );
+    let bytes = [BRIGHT; 3 * 256].into_iter().flat_map(f32::to_le_bytes).collect();
+    let scene = lit(&light, ("map.float", bytes));
+    assert_lit("map", scene, PI * GAIN * f64::from(BRIGHT) * NITS_PER_UNIFORM, 512, 2e-3);
 }
 
 /// Elevation of the sun in degrees, turbidity, model; illuminance of a level surface by the sky and across the sun's
@@ -159,8 +166,9 @@ fn a_small_sun_is_found_by_its_light() {
     assert!(evenly > 30.0 * by_luminance, "relMSE {evenly} evenly, {by_luminance} by luminance");
 }
 
-/// Errors of two scenes that look the same: twice the samples, for the draws that go to the surroundings, make up for
-/// the difference. Ratios of sums over 1152 pixels, at fixed seeds, in both techniques.
+/// Errors of two scenes that look the same, the second of which gives the lamp half of the samples: 2 times that of the
+/// first, or a little more, as half of a low-discrepancy sequence is none. Without its half it would be some thousand
+/// times. Ratios of sums over 1152 pixels, at fixed seeds, in both techniques.
 #[track_caller]
 fn assert_not_starved(what: &str, mut scenes: [Scene; 2]) {
     let truth = luminances(&scenes[0], 100, 1024);
@@ -169,7 +177,7 @@ fn assert_not_starved(what: &str, mut scenes: [Scene; 2]) {
             scene.transport.bidirectional = bidirectional;
             rel_mse(scene, &truth, 1..9, 16)
         });
-        assert!(beside < 3.0 * alone, "{what}, bidirectional {bidirectional}: relMSE {beside}, not {alone}");
+        assert!(beside < 4.0 * alone, "{what}, bidirectional {bidirectional}: relMSE {beside}, not {alone}");
     }
 }
 

@@ -79,6 +79,7 @@ struct Facts {
     /// The one medium inside.
     medium: Option<MediumId>,
     may_be_unseen: bool,
+    may_transmit: bool,
     /// Blends on the longest way down.
     depth: u32,
 }
@@ -91,6 +92,7 @@ impl Facts {
                 deltas: u32::from(matches!(other, Material::Null | Material::Specular(_))),
                 medium: other.internal_medium(),
                 may_be_unseen: other.may_be_unseen(),
+                may_transmit: other.may_transmit(),
                 depth: 0,
             },
         }
@@ -102,6 +104,7 @@ impl Facts {
             deltas: self.deltas + other.deltas,
             medium: self.medium.or(other.medium),
             may_be_unseen: self.may_be_unseen || other.may_be_unseen,
+            may_transmit: self.may_transmit || other.may_transmit,
             depth: 1 + self.depth.max(other.depth),
         };
         if facts.deltas > 1 {
@@ -141,7 +144,7 @@ impl Blend {
                     .expected(format!("expected {expected}")),
             );
             // Reported once, not again by every blend above.
-            Facts { deltas: 0, medium: None, may_be_unseen: false, depth: 0 }
+            Facts { deltas: 0, medium: None, may_be_unseen: false, may_transmit: false, depth: 0 }
         });
         Self { share, a, b, facts }
     }
@@ -187,6 +190,11 @@ impl Blend {
     /// See [`SurfaceKind::may_be_unseen`](super::SurfaceKind::may_be_unseen).
     pub(super) fn may_be_unseen(&self) -> bool {
         self.facts.may_be_unseen
+    }
+
+    /// See [`SurfaceKind::may_transmit`](super::SurfaceKind::may_transmit).
+    pub(super) fn may_transmit(&self) -> bool {
+        self.facts.may_transmit
     }
 
     /// See [`SurfaceKind::unseen_share`](super::SurfaceKind::unseen_share).

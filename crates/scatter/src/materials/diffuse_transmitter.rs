@@ -70,7 +70,11 @@ impl DiffuseTransmitter {
     }
 }
 
-impl SurfaceKind for DiffuseTransmitter {}
+impl SurfaceKind for DiffuseTransmitter {
+    fn may_transmit(&self) -> bool {
+        true
+    }
+}
 
 /// Constant BSDF, for directions on different sides of the surface.
 #[derive(Clone, Copy, Debug)]

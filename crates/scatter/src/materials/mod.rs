@@ -92,6 +92,11 @@ pub trait SurfaceKind {
         self.internal_medium().is_some()
     }
 
+    /// Whether light can come out on the other side, scattered or not.
+    fn may_transmit(&self) -> bool {
+        self.may_be_unseen()
+    }
+
     /// The share of light that passes as if nothing were there: the mean over `choice` of the cases in
     /// which there is no leaf.
     fn unseen_share(&self, _context: &MaterialContext, _uv: &impl Fn(u32) -> Vec2) -> Real {
@@ -188,6 +193,15 @@ macro_rules! registry {
                     Self::Null => true,
                     Self::Blend(blend) => blend.may_be_unseen(),
                     $(Self::$material(m) => m.may_be_unseen(),)*
+                }
+            }
+
+            /// See [`SurfaceKind::may_transmit`].
+            pub fn may_transmit(&self) -> bool {
+                match self {
+                    Self::Null => true,
+                    Self::Blend(blend) => blend.may_transmit(),
+                    $(Self::$material(m) => m.may_transmit(),)*
                 }
             }
 

@@ -75,6 +75,10 @@ impl SurfaceKind for Specular {
         Some(self.medium)
     }
 
+    fn may_transmit(&self) -> bool {
+        self.is_transparent
+    }
+
     fn unseen_share(&self, context: &MaterialContext, _uv: &impl Fn(u32) -> Vec2) -> Real {
         if self.is_transparent && context.interface.is_matched() { 1.0 } else { 0.0 }
     }

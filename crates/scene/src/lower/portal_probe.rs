@@ -15,7 +15,6 @@ use indigo_light::{Passage, Portals};
 use indigo_math::rng::{Rng, key};
 use indigo_math::warp::uniform_sphere;
 use indigo_math::{Real, Vec2, Vec3, Vec3d};
-use indigo_scatter::Material;
 
 /// Paths that are followed, and how many bounces each.
 const PATHS: u32 = 1024;
@@ -70,9 +69,7 @@ fn follow(scene: &Scene, portals: &Portals, rng: &mut Rng) -> Option<Exit> {
             return Some(Exit { passage, p, direction });
         };
         let at = scene.accel.surface(&ray, &hit);
-        let material = scene.material_at(&at);
-        let may_pass = material.may_be_unseen() || matches!(material, Material::DiffuseTransmitter(_));
-        if !may_pass || rng.next_real() < 0.5 {
+        if !scene.material_at(&at).may_transmit() || rng.next_real() < 0.5 {
             let n = if direction.dot(at.n_g) > 0.0 { -at.n_g } else { at.n_g };
             let any = uniform_sphere(Vec2::new(rng.next_real(), rng.next_real()));
             direction = if any.dot(n) < 0.0 { -any } else { any };
