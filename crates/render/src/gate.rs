@@ -7,13 +7,20 @@ use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 #[derive(Debug, Default)]
 pub(crate) struct Gate {
     stopped: AtomicBool,
-    paused: Mutex<bool>,
+    pause: Mutex<Pause>,
     changed: Condvar,
 }
 
+#[derive(Debug, Default)]
+struct Pause {
+    wanted: bool,
+    /// Workers that wait for its end.
+    resting: usize,
+}
+
 impl Gate {
-    fn paused(&self) -> MutexGuard<'_, bool> {
-        self.paused.lock().unwrap_or_else(PoisonError::into_inner)
+    fn lock(&self) -> MutexGuard<'_, Pause> {
+        self.pause.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Whether workers are to end.
@@ -25,33 +32,40 @@ impl Gate {
     pub(crate) fn stop(&self) {
         // A worker looks at `stopped` under this lock before it falls asleep. Set without the lock it could
         // change just between the look and the sleep, from which nothing would wake the worker.
-        let paused = self.paused();
+        let pause = self.lock();
         self.stopped.store(true, Ordering::Relaxed);
-        drop(paused);
+        drop(pause);
         self.changed.notify_all();
     }
 
     /// Lets the workers rest.
     pub(crate) fn pause(&self) {
-        *self.paused() = true;
+        self.lock().wanted = true;
+    }
+
+    /// How many workers rest, all their work handed over.
+    pub(crate) fn n_resting(&self) -> usize {
+        self.lock().resting
     }
 
     /// Ends the rest.
     pub(crate) fn resume(&self) {
-        *self.paused() = false;
+        self.lock().wanted = false;
         self.changed.notify_all();
     }
 
     /// Rests as long as there is a pause and no stop; before that, if so, calls `before`.
     pub(crate) fn rest(&self, before: impl FnOnce()) {
-        if !*self.paused() {
+        if !self.lock().wanted {
             return;
         }
         before();
-        let mut paused = self.paused();
-        while *paused && !self.is_stopped() {
-            paused = self.changed.wait(paused).unwrap_or_else(PoisonError::into_inner);
+        let mut pause = self.lock();
+        pause.resting += 1;
+        while pause.wanted && !self.is_stopped() {
+            pause = self.changed.wait(pause).unwrap_or_else(PoisonError::into_inner);
         }
+        pause.resting -= 1;
     }
 }
 
@@ -66,7 +80,7 @@ mod tests {
         let gate = Gate::default();
         gate.pause();
         std::thread::scope(|scope| {
-            let about_to_sleep = gate.paused();
+            let about_to_sleep = gate.lock();
             let stopping = scope.spawn(|| gate.stop());
             std::thread::sleep(Duration::from_millis(50));
             assert!(!gate.is_stopped() && !stopping.is_finished());
@@ -85,8 +99,12 @@ mod tests {
         std::thread::scope(|scope| {
             scope.spawn(|| gate.rest(|| tell.send(()).expect("somebody listens")));
             told.recv().expect("it rests");
+            while gate.n_resting() == 0 {
+                std::thread::yield_now();
+            }
             gate.resume();
         });
+        assert_eq!(gate.n_resting(), 0);
         assert!(!gate.is_stopped());
     }
 }

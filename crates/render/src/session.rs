@@ -259,6 +259,13 @@ impl Session {
         self.paused_since.get_or_insert_with(Instant::now);
     }
 
+    /// Whether a pause is in full effect: every worker has finished the unit it was at and handed it over, so
+    /// that [`snapshot`](Self::snapshot) has all that was rendered.
+    pub fn is_resting(&self) -> bool {
+        let ended = self.workers.iter().filter(|worker| worker.is_finished()).count();
+        self.paused_since.is_some() && self.shared.gate.n_resting() + ended == self.workers.len()
+    }
+
     /// Goes on after a pause.
     pub fn resume(&mut self) {
         self.shared.gate.resume();

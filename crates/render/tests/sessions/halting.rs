@@ -96,20 +96,14 @@ fn time_halts_and_stop_stops() {
     }
 }
 
-/// Waits until the counter stands still, and returns it.
+/// Waits until every worker rests, and returns the number of samples.
 fn settled(session: &mut Session) -> u64 {
     let deadline = Instant::now() + PATIENCE;
-    let mut last = session.progress().samples;
-    let mut since = Instant::now();
-    while since.elapsed() < Duration::from_millis(300) {
+    while !session.is_resting() {
         assert!(Instant::now() < deadline, "still rendering while paused");
-        assert!(matches!(session.wait(Duration::from_millis(20)), Event::Progress(_)));
-        let now = session.progress().samples;
-        if now != last {
-            (last, since) = (now, Instant::now());
-        }
+        session.wait(Duration::from_millis(20));
     }
-    last
+    session.progress().samples
 }
 
 #[test]
@@ -120,6 +114,7 @@ fn a_pause_rests_the_workers_and_the_clock_and_loses_nothing() {
             Session::start(Arc::clone(&scene), &Options { halt: ENDLESS, deterministic, ..options(2, 0) })
                 .expect("threads");
         session.wait(Duration::from_millis(50));
+        assert!(!session.is_resting(), "nothing was paused");
         session.pause();
         let samples = settled(&mut session);
         let clock = session.elapsed();
@@ -133,6 +128,7 @@ fn a_pause_rests_the_workers_and_the_clock_and_loses_nothing() {
             session.elapsed().saturating_sub(clock) < Duration::from_millis(150),
             "the clock runs on in a pause"
         );
+        assert_eq!(session.progress().samples, samples, "rendering goes on in a pause");
         session.resume();
         let deadline = Instant::now() + PATIENCE;
         while session.progress().samples == samples {
