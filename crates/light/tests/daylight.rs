@@ -184,6 +184,60 @@ fn the_sun_is_a_disc_of_its_true_size() {
     assert!(at(0.2) < 0.95 * bright && at(0.2) > 0.7 * bright);
 }
 
+/// Of a sun that sets, what is below the horizon neither shines nor is drawn: the solid angle that is left is that of
+/// the disc without a segment, π R² − R² (acos x − x √(1 − x²)) at x = height / R, and the light that is drawn and the
+/// total are those of it.
+#[test]
+fn the_horizon_cuts_the_sun() {
+    let space = space::sun(Sun::solid_angle(sun::RADIUS));
+    for (height, disc) in
+        [(0.1, space.clone()), (0.02, space), (0.1, hosek::sun(0.002, 2.0)), (0.5, hosek::sun(0.01, 2.0))]
+    {
+        let (height, radius) = (f64::to_radians(height), sun::RADIUS);
+        let low = towards(height.to_degrees());
+        let is_even = disc.limb.is_none();
+        let sun = Sun::new(low, radius, disc);
+        let at = |z: f64| xyz(&sun, Vec3d::new(low.x, low.y, z).normalized())[1];
+        assert!(at(-1e-4) == 0.0 && (at(1e-4) > 0.0) == (height < radius));
+        let below = Vec3d::new(low.x, low.y, -1e-4).normalized().cast();
+        assert_eq!(sun.pdf(Vec3::ZERO, below), 0.0);
+        let n = 512;
+        let (mut solid_angle, mut light) = (0.0, 0.0);
+        for k in 0..n * n {
+            let u = [k % n, k / n].map(|i| ((f64::from(i) + 0.5) / f64::from(n)) as Real);
+            let d = sun.sample(Vec3::ZERO, u).expect("a direction");
+            let pdf = sun.pdf(Vec3::ZERO, d) as f64;
+            // Rounding may push what lies on the rim out of the disc.
+            if pdf > 0.0 {
+                assert!(d.z >= 0.0);
+                solid_angle += 1.0 / pdf / f64::from(n * n);
+                if k % 61 == 0 {
+                    light += 61.0 * xyz_coarse(&sun, d) / pdf / f64::from(n * n);
+                }
+            }
+        }
+        let x = (height / radius).min(1.0);
+        let segment = x.acos() - x * (1.0 - x * x).sqrt();
+        let expected = radius * radius * (std::f64::consts::PI - segment);
+        assert_near("solid angle", solid_angle, expected, 2e-3);
+        assert_near("light", light, sun.total_luminance(), 1e-2);
+        if is_even {
+            assert_near("total", sun.total_luminance(), expected * xyz(&sun, low)[1], 1e-3);
+        }
+    }
+}
+
+/// Luminance (cd/m²) from a direction, of few wavelengths.
+fn xyz_coarse(light: &impl Distant, d: Vec3) -> f64 {
+    let n = 32;
+    let at = |i: u32| {
+        let lambda = SampledWavelengths::sample(((f64::from(i) + 0.5) / f64::from(n)) as Real);
+        let radiance = light.radiance(d, &lambda);
+        radiance.0.iter().zip(xyz_weights(&lambda)[1]).map(|(l, w)| (l * w) as f64).sum::<f64>()
+    };
+    (0..n).map(at).sum::<f64>() / f64::from(n)
+}
+
 /// However low the sun, no part of the sky is negative, green, or without a number.
 #[test]
 fn low_suns_are_neither_negative_nor_green() {

@@ -6,7 +6,8 @@ use indigo_decl::{Block, Field, Kind, Later, Presence, Range};
 pub static BLOCK: Block = Block::new(
     "skylight",
     "Lights the scene with the sun and the light that the atmosphere scatters. Up is the z axis; below \
-     the horizon all is black. The sun is a disc of its true size, 0.5358 degrees across. With `hosek` \
+     the horizon all is black, and of a sun that stands on it only the part above it shines. The sun is a disc of its \
+     true size, 0.5358 degrees across. With `hosek` \
      it darkens towards its limb, with `preetham` and `extra_atmospheric` it is even.",
     &[
         Field::new(
@@ -34,7 +35,9 @@ pub static BLOCK: Block = Block::new(
             Kind::Choice(&["hosek", "preetham"]),
             Presence::Default("hosek"),
             "The model of the sky: that of L. Hosek and A. Wilkie (2012), or that of A. J. Preetham, \
-             P. Shirley and B. Smits (1999), whose zenith is 2 to 3 times brighter.",
+             P. Shirley and B. Smits (1999), whose zenith is 2 to 3 times brighter. `hosek` is taken \
+             over black ground (an albedo of 0, which cannot be set): over bright ground a real sky is some per cent \
+             brighter.",
         ),
     ],
 )

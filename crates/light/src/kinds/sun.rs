@@ -1,4 +1,8 @@
-//! The sun of a `skylight`: a disc of its true size.
+//! The sun of a `skylight`: a disc of its true size, of which only what stands above the horizon shines.
+//!
+//! Directions are drawn evenly over the whole disc; those below the horizon are then mirrored in it. As the middle of
+//! the disc stands above the horizon, the mirror image lies in the disc, too: where it does the density is twice that
+//! of the disc, and no draw is lost.
 
 use super::Distant;
 use crate::sky::{SunDisc, hosek, space};
@@ -11,7 +15,7 @@ use std::f64::consts::PI;
 /// 0.524° to 0.542°.
 pub const RADIUS: f64 = 0.5 * 0.5358 * PI / 180.0;
 
-/// A disc in the sky.
+/// A disc in the sky, cut by the horizon.
 #[derive(Clone, Debug)]
 pub struct Sun {
     /// Round its middle.
@@ -25,7 +29,7 @@ pub struct Sun {
 }
 
 impl Sun {
-    /// A disc round a direction, of some angular radius, from [`RADIUS`] to that of a hemisphere.
+    /// A disc round a direction above the horizon, of some angular radius, from [`RADIUS`] to that of a hemisphere.
     pub fn new(towards: Vec3d, radius: f64, disc: SunDisc) -> Self {
         // tidy: load-time mathematics
         let versine = 2.0 * (0.5 * radius).sin().powi(2);
@@ -42,7 +46,7 @@ impl Sun {
             frame: Frame::from_normal(towards.normalized().cast()),
             versine: versine as Real,
             sin2: (versine * (2.0 - versine)) as Real,
-            total_luminance: mean * 2.0 * PI * versine,
+            total_luminance: mean * 2.0 * PI * versine * share_above(towards, radius, &disc),
             disc,
         }
     }
@@ -56,10 +60,15 @@ impl Sun {
     /// For the laws: the sun itself cannot be met by even directions, so suns that are larger.
     pub(super) fn examples() -> Vec<Self> {
         let towards = Vec3d::new(0.3, -0.5, 0.6);
-        vec![Self::new(towards, 0.3, hosek::sun(0.5, 2.5)), Self::new(-towards, 0.6, space::sun(1.0))]
+        let low = Vec3d::new(0.5, 0.2, 0.05);
+        vec![
+            Self::new(towards, 0.6, space::sun(1.0)),
+            Self::new(towards, 0.3, hosek::sun(0.5, 2.5)),
+            Self::new(low, 0.4, hosek::sun(0.1, 2.5)),
+        ]
     }
 
-    /// Squared sine of the angle from the middle, inside the disc.
+    /// Squared sine of the angle from the middle, inside the disc, be it above the horizon or not.
     #[inline]
     fn inside(&self, towards: Vec3) -> Option<Real> {
         let sin2 = self.frame.n.cross(towards).length2();
@@ -67,10 +76,36 @@ impl Sun {
     }
 }
 
+/// Rings of equal solid angle round the middle of the disc; this many give a share of it to a part in 1000.
+const RINGS: usize = 256;
+
+/// The part of the disc's light that comes from above the horizon.
+fn share_above(towards: Vec3d, radius: f64, disc: &SunDisc) -> f64 {
+    // tidy: load-time mathematics
+    let elevation = towards.normalized().z.asin();
+    if elevation >= radius {
+        return 1.0;
+    }
+    let [mut above, mut all] = [0.0; 2];
+    for i in 0..RINGS {
+        let part = (i as f64 + 0.5) / RINGS as f64;
+        let angle = 2.0 * (part.sqrt() * (0.5 * radius).sin()).asin();
+        let mu = (1.0 - (angle.sin() / radius.sin()).powi(2)).max(0.0).sqrt();
+        let luminance = disc.limb.map_or(1.0, |limb| limb.spectrum(mu).luminance());
+        // Of a ring, what has cos θ sin e + sin θ cos e cos φ > 0.
+        let cos_phi = -elevation.tan() / angle.tan();
+        all += luminance;
+        above += luminance * cos_phi.clamp(-1.0, 1.0).acos() / PI;
+    }
+    above / all
+}
+
 impl Distant for Sun {
     #[inline]
     fn radiance(&self, towards: Vec3, lambda: &SampledWavelengths) -> SampledSpectrum {
-        let Some(sin2) = self.inside(towards) else { return SampledSpectrum::ZERO };
+        let Some(sin2) = self.inside(towards).filter(|_| towards.z >= 0.0) else {
+            return SampledSpectrum::ZERO;
+        };
         let radiance = self.disc.radiance.eval(lambda);
         let Some(limb) = self.disc.limb else { return radiance };
         let mu = (1.0 - sin2 / self.sin2).max(0.0).sqrt();
@@ -84,12 +119,18 @@ impl Distant for Sun {
         // The versine is uniform; sin² = v (2 − v), shared out along the disk's axes.
         let versine = r2 * self.versine;
         let scale = (self.versine * (2.0 - versine)).sqrt();
-        Some(self.frame.to_world(Vec3::new(disk.x * scale, disk.y * scale, 1.0 - versine)))
+        let towards = self.frame.to_world(Vec3::new(disk.x * scale, disk.y * scale, 1.0 - versine));
+        Some(Vec3::new(towards.x, towards.y, towards.z.abs()))
     }
 
     #[inline]
     fn pdf(&self, _n: Vec3, towards: Vec3) -> Real {
-        if self.inside(towards).is_some() { 0.5 * INV_PI / self.versine } else { 0.0 }
+        if towards.z < 0.0 {
+            return 0.0;
+        }
+        let mirrored = Vec3::new(towards.x, towards.y, -towards.z);
+        let count = [towards, mirrored].into_iter().filter(|&d| self.inside(d).is_some()).count();
+        count as Real * 0.5 * INV_PI / self.versine
     }
 
     fn total_luminance(&self) -> f64 {

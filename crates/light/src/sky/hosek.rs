@@ -143,6 +143,12 @@ impl Limb {
         self.0[i].iter().rev().fold(0.0, |sum, &u| sum * mu + u as Real)
     }
 
+    /// The factors as a spectrum, for what is made while loading.
+    pub fn spectrum(&self, mu: f64) -> Spectrum {
+        let values: Vec<f64> = (0..COUNT).map(|i| self.polynomial(i, mu as Real).to_f64()).collect();
+        table(&values)
+    }
+
     /// The disc's mean over its middle: ∫ factor 2μ dμ = Σ 2 u_j / (j + 2).
     pub fn mean(&self) -> Spectrum {
         let mean = |u: &[f64; 6]| u.iter().enumerate().map(|(j, u)| 2.0 * u / (j + 2) as f64).sum();
