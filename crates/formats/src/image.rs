@@ -1,4 +1,5 @@
-//! Pictures as plain texels: PNG, JPEG, TGA, BMP, TIFF, Radiance HDR (by the crate `image`) and EXR (by `exr`).
+//! Pictures as plain texels: PNG, JPEG, TGA, BMP, TIFF, Radiance HDR (by the crate `image`) and EXR (by
+//! `exr`).
 
 use std::io::Cursor;
 use std::panic::{UnwindSafe, catch_unwind};
@@ -6,6 +7,7 @@ use std::panic::{UnwindSafe, catch_unwind};
 use crate::error::{FormatError, Position};
 
 mod exr_file;
+mod radiance;
 mod raster;
 
 /// The widest and highest picture that is read.
@@ -13,8 +15,11 @@ const MAX_SIDE: u32 = 32_768;
 /// The most memory that a decoded picture may take, in bytes.
 const MAX_BYTES: u64 = 4 << 30;
 
+/// Chromaticities (x, y) by CIE 1931 of red, green, blue and white.
+pub type Primaries = [[f64; 2]; 4];
+
 /// A picture: rows from the top, texels from the left, channels of a texel together. Values are as stored: no gamma is
-/// removed, no colour space converted.
+/// removed, no colour space converted. Only an exposure that the file states is taken back.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Image {
     /// Texels per row.
@@ -25,6 +30,8 @@ pub struct Image {
     pub channels: u8,
     /// `width · height · channels` values.
     pub pixels: Pixels,
+    /// Which colours the channels are, where an EXR or Radiance file says so.
+    pub primaries: Option<Primaries>,
 }
 
 /// Values of a picture in the precision of its file.
@@ -42,11 +49,15 @@ pub enum Pixels {
 /// extension does.
 ///
 /// # Errors
-/// For a kind that is not known, for damaged files and for pictures wider or higher than 32,768 texels or larger than
-/// 4 GiB when decoded. Positions are the file's start: the decoders do not tell more.
+/// For a kind that is not known, for damaged files, for headers that are not as they must be and for pictures wider or higher than 32,768 texels or larger than
+/// 4 GiB when decoded. Positions are lines of a Radiance file's header, or else the file's start: the decoders do not
+/// tell more.
 pub fn decode(file_name: &str, bytes: &[u8]) -> Result<Image, FormatError> {
     if bytes.starts_with(&exr_file::MAGIC) {
         return guarded("EXR", || exr_file::decode(bytes));
+    }
+    if bytes.starts_with(radiance::MAGIC) {
+        return guarded("HDR", || radiance::decode(bytes));
     }
     let by_content = ::image::guess_format(bytes).ok();
     let by_name = || ::image::ImageFormat::from_path(file_name).ok();

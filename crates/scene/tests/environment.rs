@@ -23,6 +23,21 @@ fn hdr() -> Vec<u8> {
     bytes
 }
 
+/// A Radiance file all of one colour, with something in its header.
+fn even_hdr(header: &str) -> Vec<u8> {
+    let mut bytes = format!("#?RGBE\nFORMAT=32-bit_rle_rgbe\n{header}\n\n-Y 2 +X 4\n").into_bytes();
+    bytes.extend([128, 77, 51, 128].repeat(8));
+    bytes
+}
+
+/// The same colour from Rec. 2020 in Rec. 709, by the matrix of ITU-R BT.2087.
+fn converted() -> Vec<u8> {
+    let [r, g, b] = [128.0, 77.0, 51.0].map(|v| v / 256.0);
+    let rows = [[1.6605, -0.5876, -0.0728], [-0.1246, 1.1329, -0.0083], [-0.0182, -0.1006, 1.1187]];
+    let texel = rows.map(|m| (m[0] * r + m[1] * g + m[2] * b) as f32);
+    (0..16).flat_map(|_| texel).flat_map(f32::to_le_bytes).collect()
+}
+
 /// 4 by 4 texels: the upper half is 3, and one of the lower ones negative, one no number.
 fn float() -> Vec<u8> {
     let value = |i: usize| match i {
@@ -47,6 +62,12 @@ impl Resolver for Memory {
             "map.hdr" => hdr(),
             "probe.float" => float(),
             "odd.float" => odd(-0.01, f32::INFINITY),
+            "plain.hdr" => even_hdr("# nothing"),
+            "exposed.hdr" => even_hdr("EXPOSURE=4\nCOLORCORR=0.5 0.5 0.5"),
+            "wide.hdr" => even_hdr("PRIMARIES=0.708 0.292 0.170 0.797 0.131 0.046 0.3127 0.3290"),
+            "no_primaries.hdr" => even_hdr("PRIMARIES=0.3 0.3 0.3 0.3 0.3 0.3 0.3 0.3"),
+            "bad.hdr" => even_hdr("EXPOSURE=no"),
+            "converted.float" => converted(),
             "even.float" => odd(0.0, 1.0),
             // A PNG's first bytes do: it is refused whatever follows.
             "map.bmp" => b"BM".to_vec(),
@@ -128,6 +149,22 @@ fn an_angular_map_lies_as_documented() {
     assert_eq!(codes(&loaded(&text.replace(">4<", ">5<"))), ["E0303"]);
 }
 
+/// What is wrong by itself has one message, and none about the file.
+#[test]
+fn a_map_without_width_or_path_has_one_message() {
+    let map = |more: &str| loaded(&format!("<env_map><spherical><gain>2</gain>{more}</spherical></env_map>"));
+    let path = "<path>probe.float</path>";
+    assert_eq!(codes(&map(&format!("{path}<width>4</width>"))), ["W0308"]);
+    for width in ["", "<width/>", "<width>0</width>", "<width>-1</width>", "<width>16 16</width>"] {
+        let l = map(&format!("{path}{width}"));
+        assert!(codes(&l).len() == 1 && codes(&l)[0].starts_with("E02"), "{width}: {:?}", codes(&l));
+    }
+    for path in ["", "<path></path>"] {
+        let l = map(&format!("{path}<width>4</width>"));
+        assert!(codes(&l).len() == 1 && codes(&l)[0].starts_with("E02"), "{path}: {:?}", codes(&l));
+    }
+}
+
 /// A component that cannot be takes nothing else away: it is the nearest that can.
 #[test]
 fn texels_beyond_the_gamut_or_the_range_keep_their_light() {
@@ -152,6 +189,34 @@ fn maps_that_cannot_be_light_are_refused() {
     assert_eq!(codes(&loaded(&map("nothing.exr"))), ["E0302"]);
     assert_eq!(codes(&loaded(&map("map.bmp"))), ["E0303"]);
     assert_eq!(codes(&loaded(&map("probe.float"))), ["E0303"]);
+}
+
+/// Exposures that a file states are taken back, and its colours are those that it states.
+#[test]
+fn headers_of_maps_count() {
+    let at = |path: &str| {
+        let map = loaded(&lat_long(2.0).replace("map.hdr", path));
+        assert_eq!(codes(&map), [""; 0], "{path}");
+        radiance(&map, [0.3, -0.4, 0.2])
+    };
+    let plain = at("plain.hdr");
+    assert!((at("exposed.hdr") / plain - 0.5).abs() < 1e-5);
+    let spherical = "<env_map><spherical><path>converted.float</path><width>4</width><gain>2</gain></spherical></env_map>";
+    let expected = radiance(&loaded(spherical), [0.3, -0.4, 0.2]);
+    let wide = at("wide.hdr");
+    assert!(
+        (wide / expected - 1.0).abs() < 1e-3 && (wide / plain - 1.0).abs() > 0.02,
+        "{wide} {expected} {plain}"
+    );
+    let message = |path: &str| {
+        let l = loaded(&lat_long(1.0).replace("map.hdr", path));
+        (codes(&l), l.sink.diagnostics()[0].message.clone())
+    };
+    assert_eq!(message("bad.hdr"), (vec!["E0303"], "bad.hdr:3:1: bad environment map".to_owned()));
+    assert_eq!(
+        message("no_primaries.hdr"),
+        (vec!["E0303"], "no_primaries.hdr: bad environment map".to_owned())
+    );
 }
 
 fn sky(more: &str) -> String {

@@ -35,6 +35,34 @@ pub fn bradford_to_d65(from: [f64; 2]) -> Option<Mat3<f64>> {
     adapted.rows.iter().all(|row| row.is_finite()).then_some(adapted)
 }
 
+/// How far apart chromaticities may be that are the same: the rounding of those that are published.
+const SAME: f64 = 1e-4;
+
+/// The chromaticities (x, y) of the primaries of ITU-R BT.709 and of its white.
+const REC709: [[f64; 2]; 4] = [[0.64, 0.33], [0.30, 0.60], [0.15, 0.06], D65_XY];
+
+/// The matrix from linear RGB of some primaries (chromaticities of red, green, blue and of the white, (1, 1, 1)) to
+/// linear Rec. 709, without adaptation: light stays what it is, and its luminance of 1 at (1, 1, 1). The identity where
+/// the primaries are those of Rec. 709 but for rounding; `None` where they do not span the colours.
+///
+/// With P the primaries' XYZ as columns and w the white's, XYZ = P diag(P⁻¹ w) RGB (SMPTE RP 177-1993).
+pub fn rec709_of(primaries: [[f64; 2]; 4]) -> Option<Mat3<f64>> {
+    let pairs = primaries.as_flattened().iter().zip(REC709.as_flattened());
+    if pairs.clone().all(|(a, b)| (a - b).abs() < SAME) {
+        return Some(Mat3::IDENTITY);
+    }
+    let [red, green, blue] = [0, 1, 2].map(|i: usize| {
+        let [x, y] = primaries[i];
+        Vec3d::new(x, y, 1.0 - x - y)
+    });
+    let columns = Mat3 { rows: [red, green, blue] }.transposed();
+    let shares = columns.inverse()? * xyz_of_white(primaries[3]);
+    let to_xyz = Mat3 { rows: [red * shares.x, green * shares.y, blue * shares.z] }.transposed();
+    let matrix = Mat3::from_rows(XYZ_TO_RGB) * to_xyz;
+    (matrix.rows.iter().all(|row| row.is_finite()) && shares.x.min(shares.y).min(shares.z) > 0.0)
+        .then_some(matrix)
+}
+
 /// Linear Rec. 709 RGB to XYZ, row-major; white (1, 1, 1) has Y = 1. From the primaries of ITU-R
 /// BT.709 item 1.3 and the white [`D65_XY`], rounded once.
 pub const RGB_TO_XYZ: [f64; 9] = [
@@ -77,20 +105,44 @@ mod tests {
     use super::*;
     use crate::illuminant;
 
-    const PRIMARIES: [[f64; 2]; 3] = [[0.64, 0.33], [0.30, 0.60], [0.15, 0.06]];
-
     fn largest_difference(a: &Mat3<f64>, b: &Mat3<f64>) -> f64 {
         (0..3).map(|i| (a.rows[i] - b.rows[i]).abs().max_component()).fold(0.0, f64::max)
     }
 
     #[test]
     fn the_matrices_follow_from_the_primaries() {
-        let columns = Mat3 { rows: PRIMARIES.map(xyz_of_white) }.transposed();
+        let columns = Mat3 { rows: [0, 1, 2].map(|i: usize| xyz_of_white(REC709[i])) }.transposed();
         let amounts = columns.inverse().unwrap() * xyz_of_white(D65_XY);
         let scaled =
             columns * Mat3::from_rows([amounts.x, 0.0, 0.0, 0.0, amounts.y, 0.0, 0.0, 0.0, amounts.z]);
         assert!(largest_difference(&scaled, &Mat3::from_rows(RGB_TO_XYZ)) < 1e-15);
         assert!(largest_difference(&scaled.inverse().unwrap(), &Mat3::from_rows(XYZ_TO_RGB)) < 1e-14);
+    }
+
+    /// Of Rec. 2020: the matrix of ITU-R BT.2087-0, section 3 (to four digits). Of others: the primaries and the
+    /// white are the colours that they are said to be.
+    #[test]
+    fn light_of_other_primaries_stays_what_it_is() {
+        let wide = [[0.708, 0.292], [0.170, 0.797], [0.131, 0.046], D65_XY];
+        let published = [1.6605, -0.5876, -0.0728, -0.1246, 1.1329, -0.0083, -0.0182, -0.1006, 1.1187];
+        assert!(largest_difference(&rec709_of(wide).unwrap(), &Mat3::from_rows(published)) < 1e-4);
+        let other = [[0.64, 0.33], [0.29, 0.60], [0.15, 0.06], [1.0 / 3.0, 1.0 / 3.0]];
+        let matrix = rec709_of(other).unwrap();
+        let units = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0; 3]];
+        for (rgb, [x, y]) in units.into_iter().zip(other) {
+            let [a, b, c] = xyz_of_rgb((matrix * Vec3d::from(rgb)).to_array());
+            let sum = a + b + c;
+            assert!((a / sum - x).abs() < 1e-12 && (b / sum - y).abs() < 1e-12, "{rgb:?}");
+            assert!(rgb != [1.0; 3] || (b - 1.0).abs() < 1e-12);
+        }
+        let near = [[0.6400, 0.3300], [0.2995, 0.6000], [0.1500, 0.0600], D65_XY];
+        assert!(rec709_of(near).unwrap() != Mat3::IDENTITY);
+        let rounded = REC709.map(|c| c.map(|v| f64::from(v as f32) + 2e-5));
+        assert_eq!(rec709_of(rounded), Some(Mat3::IDENTITY));
+        assert!(rec709_of([[0.3, 0.3]; 4]).is_none() && rec709_of([[f64::NAN, 0.3]; 4]).is_none());
+        // A white that is no mixture, and one that is no colour.
+        assert!(rec709_of([wide[0], wide[1], wide[2], [0.7, 0.1]]).is_none());
+        assert!(rec709_of([wide[0], wide[1], wide[2], [0.3, 0.0]]).is_none());
     }
 
     #[test]

@@ -194,7 +194,7 @@ mod tests {
 
     fn ramp() -> Image {
         // Two by two, grey: top row 0, 100; bottom row 200, 40.
-        Image { width: 2, height: 2, channels: 1, pixels: Pixels::U8(vec![0, 100, 200, 40]) }
+        Image { width: 2, height: 2, channels: 1, pixels: Pixels::U8(vec![0, 100, 200, 40]), primaries: None }
     }
 
     #[test]
@@ -242,6 +242,7 @@ mod tests {
             height: 8,
             channels: 1,
             pixels: Pixels::F32((0..8).rev().flat_map(|y| (0..16).map(move |x| f(x, y))).collect()),
+            primaries: None,
         };
         let ramp = texture(heights(|x, y| 0.01 * (3 * x + 2 * y) as f32), Curve::IDENTITY);
         // Away from the seam, where the ramp falls back.

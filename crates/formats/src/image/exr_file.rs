@@ -5,7 +5,7 @@ use std::io::Cursor;
 use exr::meta::MetaData;
 use exr::prelude::*;
 
-use super::{Image, Pixels, check_size, decoder_error};
+use super::{Image, Pixels, Primaries, check_size, decoder_error};
 use crate::error::{FormatError, Position};
 
 /// The bytes that every EXR file starts with.
@@ -24,7 +24,9 @@ pub(super) fn decode(bytes: &[u8]) -> std::result::Result<Image, FormatError> {
     let has =
         |names: &[&str]| meta.headers.iter().any(|header| names.iter().all(|name| has_channel(header, name)));
     if has(&["R", "G", "B"]) {
-        rgb(bytes).map_err(complaint)
+        let primaries = meta.headers.iter().find_map(|header| header.shared_attributes.chromaticities);
+        let image = rgb(bytes).map_err(complaint)?;
+        Ok(Image { primaries: primaries.map(chromaticities), ..image })
     } else if has(&["Y"]) {
         grey(bytes).map_err(complaint)
     } else {
@@ -40,6 +42,10 @@ pub(super) fn decode(bytes: &[u8]) -> std::result::Result<Image, FormatError> {
             format!("the channels {}", names.join(", ")),
         ))
     }
+}
+
+fn chromaticities(of: exr::meta::attribute::Chromaticities) -> Primaries {
+    [of.red, of.green, of.blue, of.white].map(|Vec2(x, y)| [x.into(), y.into()])
 }
 
 fn has_channel(header: &exr::meta::header::Header, name: &str) -> bool {
@@ -98,6 +104,7 @@ impl<const N: usize> Texels<N> {
             height: self.size.height() as u32,
             channels: N as u8,
             pixels: Pixels::F32(self.values.into_flattened()),
+            primaries: None,
         }
     }
 }

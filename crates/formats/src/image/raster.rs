@@ -1,4 +1,4 @@
-//! Everything that the crate `image` decodes.
+//! What the crate `image` decodes whole.
 
 use std::io::Cursor;
 
@@ -8,8 +8,8 @@ use super::{Image, MAX_BYTES, MAX_SIDE, Pixels, check_size, decoder_error};
 use crate::error::FormatError;
 
 pub(super) fn is_known(format: ImageFormat) -> bool {
-    use ImageFormat::{Bmp, Hdr, Jpeg, Png, Tga, Tiff};
-    matches!(format, Png | Jpeg | Tga | Bmp | Tiff | Hdr)
+    use ImageFormat::{Bmp, Jpeg, Png, Tga, Tiff};
+    matches!(format, Png | Jpeg | Tga | Bmp | Tiff)
 }
 
 /// What the kind is called in messages.
@@ -20,7 +20,6 @@ pub(super) fn name(format: ImageFormat) -> &'static str {
         ImageFormat::Tga => "TGA",
         ImageFormat::Bmp => "BMP",
         ImageFormat::Tiff => "TIFF",
-        ImageFormat::Hdr => "HDR",
         _ => "picture",
     }
 }
@@ -38,7 +37,7 @@ pub(super) fn decode(format: ImageFormat, bytes: Cursor<&[u8]>) -> Result<Image,
     check_size(width.into(), height.into(), decoder.color_type().bytes_per_pixel().into())?;
     let picture = DynamicImage::from_decoder(decoder).map_err(complaint)?;
     let (channels, pixels) = texels(picture);
-    Ok(Image { width, height, channels, pixels })
+    Ok(Image { width, height, channels, pixels, primaries: None })
 }
 
 /// One or three channels in the precision of the picture.

@@ -119,6 +119,94 @@ fn radiance_hdr_keeps_values_beyond_one() {
     }
 }
 
+/// Two rows of three texels with one exponent each, not compressed: value 128 and exponent 129 are 1.
+fn hdr(header: &str, sides: &str) -> Vec<u8> {
+    let mut bytes = format!("{header}\n{sides}\n").into_bytes();
+    bytes.extend((0..6u8).flat_map(|i| [16 * i, 128, 64, 129]));
+    bytes
+}
+
+fn hdr_values(header: &str, sides: &str) -> (u32, u32, Vec<f32>) {
+    let image = decode("a.hdr", &hdr(header, sides)).unwrap();
+    let Pixels::F32(values) = image.pixels else { panic!("floats") };
+    (image.width, image.height, values)
+}
+
+/// Values are divided by all exposures and corrections, which makes them radiance again.
+#[test]
+fn radiance_exposures_are_taken_back() {
+    let sides = "-Y 2 +X 3";
+    let (_, _, plain) = hdr_values("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n", sides);
+    assert_eq!(plain[3..6], [0.125, 1.0, 0.5]);
+    for head in
+        ["#?RGBE\n", "#?AUTOPANO\r\n# by hand\r\npcomp\r\n\tEXPOSURE=9\r\n\r", "#?RADIANCE\nEXPOSURE=1\n"]
+    {
+        assert_eq!(hdr_values(head, sides).2, plain, "{head}");
+    }
+    let head =
+        "#?RADIANCE\nEXPOSURE=2\nCOLORCORR= 1 0.5 4\nEXPOSURE = 7\nEXPOSURE= 2.0 \nCOLORCORR=1 1 0.25\n";
+    assert_eq!(hdr_values(head, sides).2[3..6], [0.125 / 4.0, 0.5, 0.125]);
+}
+
+/// Whichever way the scanlines run, the picture stands upright. Reds are 0 to 5 eighths in the order of the file.
+#[test]
+fn radiance_pictures_lie_in_any_direction() {
+    for (sides, size, order) in [
+        ("-Y 2 +X 3", [3, 2], [0, 1, 2, 3, 4, 5]),
+        ("+Y 2 +X 3", [3, 2], [3, 4, 5, 0, 1, 2]),
+        ("-Y 2 -X 3", [3, 2], [2, 1, 0, 5, 4, 3]),
+        ("+Y 2 -X 3", [3, 2], [5, 4, 3, 2, 1, 0]),
+        ("+X 2 -Y 3", [2, 3], [0, 3, 1, 4, 2, 5]),
+        ("+X 2 +Y 3", [2, 3], [2, 5, 1, 4, 0, 3]),
+        ("-X 2 -Y 3", [2, 3], [3, 0, 4, 1, 5, 2]),
+        ("-X 2 +Y 3", [2, 3], [5, 2, 4, 1, 3, 0]),
+    ] {
+        let (width, height, values) = hdr_values("#?RADIANCE\n", sides);
+        let reds: Vec<u32> = values.iter().step_by(3).map(|v| (v * 8.0) as u32).collect();
+        assert_eq!(([width, height], reds), (size, order.to_vec()), "{sides}");
+    }
+}
+
+#[test]
+fn what_is_wrong_in_a_radiance_header_is_named_with_its_line() {
+    let refused = |header: &str, sides: &str, message: &str| {
+        let error = decode("a.hdr", &hdr(header, sides)).unwrap_err().to_string();
+        assert!(error.starts_with(message), "{error}");
+    };
+    let sides = "-Y 2 +X 3";
+    refused("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n", sides, "2:1: expected FORMAT=32-bit_rle_rgbe");
+    for exposure in ["0", "-1", "nan", "inf", "", "1 2", "1e-40"] {
+        refused(&format!("#?RADIANCE\n\tx\nEXPOSURE={exposure}\n"), sides, "3:1: expected EXPOSURE=");
+    }
+    refused("#?RADIANCE\nEXPOSURE=1e20\nEXPOSURE=1e20\n", sides, "3:1: expected exposures");
+    refused("#?RADIANCE\nCOLORCORR=1 2\n", sides, "2:1: expected COLORCORR=");
+    refused("#?RADIANCE\nPRIMARIES=1 2\n", sides, "2:1: expected PRIMARIES=");
+    for sides in ["", "-Y 2", "2 3", "-Z 2 +X 3", "-Y 2 +Y 3", "+X 2 +X 3", "-Y -2 +X 3", "-Y 2 +X 3 4"] {
+        refused("#?RADIANCE\n", sides, "3:1: expected the sides");
+    }
+    refused("#?RADIANCE\n", "-Y 2 +X 40000", "byte 0: expected a picture of 1 to 32768 texels");
+    refused("#?RADIANCE\n", "-Y 3 +X 3", "byte 0: expected a sound HDR file");
+    let error = decode("a.hdr", b"#?RADIANCE\nEXPOSURE=1\n").unwrap_err().to_string();
+    assert_eq!(error, "3:1: expected an empty line after the header, found the end of it");
+}
+
+/// Files tell which colours their channels are.
+#[test]
+fn primaries_are_told() {
+    let wide = [[0.708, 0.292], [0.170, 0.797], [0.131, 0.046], [0.3127, 0.3290]];
+    let head = "#?RADIANCE\nPRIMARIES= .708 .292 .170 .797\t.131 .046 .3127 .3290\n";
+    assert_eq!(decode("a.hdr", &hdr(head, "-Y 2 +X 3")).unwrap().primaries, Some(wide));
+    assert_eq!(decode("a.hdr", &hdr("#?RADIANCE\n", "-Y 2 +X 3")).unwrap().primaries, None);
+    let channels = SpecificChannels::rgb(|_: Vec2<usize>| (1.0f32, 0.0f32, 0.0f32));
+    let mut image = exr::prelude::Image::from_channels((2, 1), channels);
+    let [red, green, blue, white] = wide.map(|[x, y]| Vec2(x as f32, y as f32));
+    image.attributes.chromaticities = Some(exr::meta::attribute::Chromaticities { red, green, blue, white });
+    let mut bytes = Cursor::new(Vec::new());
+    image.write().non_parallel().to_buffered(&mut bytes).unwrap();
+    let told = decode("a.exr", bytes.get_ref()).unwrap().primaries.unwrap();
+    assert!(told.iter().flatten().zip(wide.iter().flatten()).all(|(a, b)| (a - b).abs() < 1e-7), "{told:?}");
+}
+
 #[test]
 fn exr_of_half_or_float_with_or_without_colour() {
     let size = Vec2(WIDTH as usize, HEIGHT as usize);

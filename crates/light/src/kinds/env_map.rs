@@ -50,7 +50,9 @@ pub static BLOCK: Block = Block::new(
 pub static LATLONG: Block = Block::new(
     "latlong",
     "A map in latitude and longitude: an EXR or Radiance HDR file. Its middle lies towards +y, its right \
-     half towards +x, its top towards +z.",
+     half towards +x, its top towards +z. Values of a Radiance file are divided by its EXPOSURE and COLORCORR, which \
+     makes them radiance again. Colours are converted from the primaries that the file states (chromaticities of an \
+     EXR, PRIMARIES of a Radiance file), and are those of Rec. 709 where it states none.",
     &[Field::new("path", Kind::Path, Presence::Required, "The file, relative to the scene file."), GAIN],
 )
 .with_aliases(&["lat_long"])

@@ -5,7 +5,7 @@ use crate::codes;
 use indigo_decl::Node;
 use indigo_diag::Diagnostic;
 use indigo_formats::image::{self, Image, Pixels};
-use indigo_formats::{FormatError, float_map};
+use indigo_formats::{FormatError, Position, float_map};
 use indigo_light::DistantLight;
 use indigo_light::kinds::background::Background;
 use indigo_light::kinds::env_map::{EnvMap, Layout};
@@ -14,7 +14,8 @@ use indigo_light::kinds::sun::{self, Sun};
 use indigo_light::sky::hosek::{self, HosekSky};
 use indigo_light::sky::preetham::{self, PreethamSky};
 use indigo_light::sky::space;
-use indigo_math::Vec3d;
+use indigo_math::{Mat3, Vec3d};
+use indigo_spectrum::adaptation::rec709_of;
 use indigo_spectrum::read;
 
 /// All distant lights of a scene; their radiances add.
@@ -79,6 +80,11 @@ fn env_map(node: &Node, context: &mut Context) -> Option<EnvMap> {
     let path = node.text("path");
     let gain = node.real("gain");
     let width = (node.block.name == "spherical").then(|| node.int("width"));
+    // A width that is not there or wrong was reported, and none fits the file.
+    if width.is_some() && (!node.has("width") || node.is_faulty("width")) {
+        node.disregard();
+        return None;
+    }
     let file = context.read(&path.value, path.span)?;
     let (layout, image) = match width {
         Some(width) => {
@@ -90,8 +96,12 @@ fn env_map(node: &Node, context: &mut Context) -> Option<EnvMap> {
     let (width, height, mut texels) = match texels {
         Ok(found) => found,
         Err(error) => {
+            let place = match error.position {
+                Position::Text { .. } => format!("{}:{}", file.path, error.position),
+                Position::Byte(_) | Position::Unpacked(_) => file.path,
+            };
             context.sink.push(
-                Diagnostic::error(codes::BAD_FILE, path.span, format!("{}: bad environment map", file.path))
+                Diagnostic::error(codes::BAD_FILE, path.span, format!("{place}: bad environment map"))
                     .expected(format!("expected {}, found {}", error.expected, error.found)),
             );
             return None;
@@ -112,11 +122,11 @@ fn env_map(node: &Node, context: &mut Context) -> Option<EnvMap> {
     Some(EnvMap::new(layout, width as usize, height as usize, texels))
 }
 
-/// The texels of a picture in linear light: integers are not, and have not the range.
+/// The texels of a picture in linear light, whose colours are those of Rec. 709: integers are not, and have not the range.
 fn linear_texels(image: Image) -> Result<Vec<[f32; 3]>, FormatError> {
     let Pixels::F32(values) = image.pixels else {
         return Err(FormatError::new(
-            indigo_formats::Position::Byte(0),
+            Position::Byte(0),
             "a picture of high dynamic range (EXR or HDR)",
             "a picture of 8 or 16 bits",
         ));
@@ -124,7 +134,18 @@ fn linear_texels(image: Image) -> Result<Vec<[f32; 3]>, FormatError> {
     if image.channels == 1 {
         return Ok(values.into_iter().map(|v| [v; 3]).collect());
     }
-    Ok(values.as_chunks::<3>().0.to_vec())
+    let texels = values.as_chunks::<3>().0.to_vec();
+    let Some(primaries) = image.primaries else { return Ok(texels) };
+    let Some(matrix) = rec709_of(primaries) else {
+        let position = Position::Byte(0);
+        let found = format!("chromaticities of {primaries:?}");
+        return Err(FormatError::new(position, "red, green and blue that mix to a white", found));
+    };
+    if matrix == Mat3::IDENTITY {
+        return Ok(texels);
+    }
+    let convert = |texel: [f32; 3]| (matrix * Vec3d::from(texel.map(f64::from))).to_array().map(|v| v as f32);
+    Ok(texels.into_iter().map(convert).collect())
 }
 
 /// Multiplies all texels, and counts those that cannot be light. Of their components negative ones, which saturated

@@ -47,14 +47,21 @@ impl Context<'_> {
         format!("{}:{}:{}", self.sources.name(span.source), p.line, p.column)
     }
 
-    /// The bytes of a file named in the scene; `None` after reporting why not.
+    /// The bytes of a file named in the scene; `None` after reporting why not. An empty path is that of an element
+    /// without one, which was reported.
     fn read(&mut self, path: &str, span: Span) -> Option<Resolved> {
+        if path.is_empty() {
+            return None;
+        }
         let found = self.options.resolver.read(path, self.sources.name(span.source));
         self.or_report(found, path, span)
     }
 
     /// The same for a file that decides only how the film is developed.
     fn read_for_development(&mut self, path: &str, span: Span) -> Option<Resolved> {
+        if path.is_empty() {
+            return None;
+        }
         let found = self.development.read(path, self.sources.name(span.source));
         self.or_report(found, path, span)
     }

@@ -5,6 +5,8 @@ use crate::codes;
 use indigo_decl::Node;
 use indigo_diag::{Diagnostic, SourceId, Span};
 use indigo_formats::image::{self, Image, Pixels};
+use indigo_math::Mat3;
+use indigo_spectrum::adaptation::rec709_of;
 use indigo_texture::{Curve, Texture, TextureId};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -54,9 +56,7 @@ impl TextureTable {
         if let Some(file) = self.found.get(&named) {
             return file.clone();
         }
-        // An empty path is that of an element without one, which was reported.
-        let read = if path.is_empty() { None } else { context.read(path, span) };
-        let (file, image) = match read {
+        let (file, image) = match context.read(path, span) {
             Some(found) if self.images.contains_key(&found.path) => (found.path, None),
             Some(found) => {
                 let image = decode(&found.path, &found.bytes, span, context);
@@ -73,7 +73,14 @@ impl TextureTable {
 }
 
 fn decode(file: &str, bytes: &[u8], span: Span, context: &mut Context) -> Image {
-    image::decode(file, bytes).unwrap_or_else(|error| {
+    let image = image::decode(file, bytes);
+    if let Ok(Image { primaries: Some(primaries), .. }) = &image
+        && rec709_of(*primaries) != Some(Mat3::IDENTITY)
+    {
+        let note = format!("{file}: its colours are not those of Rec. 709, and are taken as if they were");
+        context.sink.push(Diagnostic::warning(codes::FILE_NOTE, span, note));
+    }
+    image.unwrap_or_else(|error| {
         context.sink.push(
             Diagnostic::error(codes::BAD_FILE, span, format!("{file}: bad picture file"))
                 .expected(format!("expected {}, found {}", error.expected, error.found)),
@@ -83,5 +90,5 @@ fn decode(file: &str, bytes: &[u8], span: Span, context: &mut Context) -> Image 
 }
 
 fn grey() -> Image {
-    Image { width: 1, height: 1, channels: 1, pixels: Pixels::U8(vec![128]) }
+    Image { width: 1, height: 1, channels: 1, pixels: Pixels::U8(vec![128]), primaries: None }
 }
