@@ -3,7 +3,7 @@
 indigo_decl::codes! {
     /// A name that is defined twice; the last definition counts.
     DUPLICATE_NAME = "W0302", "<material><name>a</name><null_material/></material><material><name>a</name><null_material/></material>";
-    /// Something about a mesh or picture file that its user should know.
+    /// Something about a mesh, picture or lamp file that its user should know.
     FILE_NOTE = "W0303", "<mesh><name>m</name><embedded></embedded></mesh><model><pos>0 0 0</pos><scale>1</scale><mesh_name>m</mesh_name></model>";
     /// The sensor's aspect ratio is not the picture's.
     ASPECT_RATIO = "W0304", "<renderer_settings><width>800</width><height>100</height></renderer_settings>";
@@ -21,6 +21,12 @@ indigo_decl::codes! {
     IDLE_PORTALS = "W0311", "(an `exit_portal` without `background`, `skylight` and `env_map`)";
     /// Openings that no portal covers.
     UNCOVERED = "W0312", "(a room with two windows and one `exit_portal`)";
+    /// A photometric lamp whose mesh is not flat.
+    NOT_FLAT = "W0313", "(a bent `meshlight` with `ies_profile`)";
+    /// An efficacy that no lamp can have.
+    EFFICACY = "W0314", "(a lamp of 100 W and 700 lm/W)";
+    /// An object whose shape is lost to rounding.
+    ROUNDED = "W0315", "(a lamp of a metre, a million kilometres from the camera)";
     /// A turbidity beyond what the model of the sky knows.
     TURBIDITY = "W0309", "<skylight><sundir>0 0.6 1</sundir><turbidity>30</turbidity></skylight>";
     /// A name that nothing defines.

@@ -11,7 +11,9 @@ pub static TEXTURE: Block = Block::new(
      `bump_map`, `exponent_map`, `blend_map`, or `texture` in a mesh light.\n\n\
      Each component x of the image, scaled to [0, 1], becomes f = a·g² + b·g + c with g = x^exponent. \
      Where one number is wanted (bump, exponent, blend) it is the mean of f over red, green and blue. \
-     v = 0 is the bottom of the image, which repeats in both directions.",
+     v = 0 is the bottom of the image, which repeats in both directions. Texels stand at the corners of a grid, the \
+     first of them at (0, 0), and between them values are linear: the last run on into the first ones of the next \
+     repetition. Those of environment maps stand in the middle of their cells.",
     &[
         Field::new(
             "uv_set",

@@ -1,22 +1,25 @@
-//! Photometric data of lamps: IES LM-63 of 1986, 1991, 1995 and 2002.
+//! Photometric data of lamps: IES LM-63 of 1986, 1991, 1995, 2002 and 2019.
 //!
 //! A file is lines of text up to `TILT=`, and from there numbers, apart by blanks, commas or line ends:
 //!
-//! 1. after `TILT=INCLUDE` the lamp's position, how many angles there are, the angles, and a factor for each;
+//! 1. after `TILT=INCLUDE`, the lamp's position, how many angles there are, the angles, and a factor for each;
 //! 2. number of lamps, lumens of each (-1: absolute photometry), multiplier, how many vertical and how many
 //!    horizontal angles there are, photometric type (1: C), unit (1: feet, 2: metres), width, length and
 //!    height of the opening;
-//! 3. ballast factor, ballast-lamp factor, watts;
+//! 3. ballast factor, ballast-lamp factor (in the edition of 2019 the file generation type), watts;
 //! 4. the vertical angles, the horizontal angles, and for each of the latter the candelas at all of the former.
 //!
-//! The intensity is candela · multiplier · both ballast factors. Factors for tilt are for lamps that are
-//! tilted by their mounting, which a fixed lamp in a scene is not: they are read and left out. Lumens do not
-//! scale anything.
+//! and nothing behind them: a count that does not come out says that the numbers are not what they seem.
+//!
+//! The intensity is candela · multiplier · both ballast factors. The file generation type is no factor, though it
+//! looks like one: 1.1 says that the data were measured by an accredited laboratory. Factors for tilt are for lamps
+//! that are tilted by their mounting, which a fixed lamp in a scene is not: they are read and left out, and where they
+//! stand in another file that is not asked for. Lumens do not scale anything.
 
 mod words;
 
-use crate::error::FormatError;
-use words::Words;
+use crate::error::{FormatError, Position};
+use words::{Tilt, Words};
 
 /// How the intensity of a lamp depends on the direction, by photometry of type C.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +30,8 @@ pub struct Photometry {
     pub horizontal_deg: Vec<f64>,
     /// Luminous intensity, all factors in, in cd: for each horizontal angle in turn one for each vertical.
     pub candela: Vec<f64>,
+    /// What the user of the file should know, and where it stands.
+    pub notes: Vec<(Position, String)>,
 }
 
 /// How far an angle that must be 0, 90, 180 or 360 degrees may be off: the rounding of a file's decimals.
@@ -35,17 +40,28 @@ const ANGLE_ROUNDING: f64 = 1e-3;
 /// The largest intensity that a lamp may have, cd: lighthouses have some millions.
 const MOST_CANDELA: f64 = 1e12;
 
+/// How far, as a part of the largest of all, intensities at 0 and at 360 degrees may be apart: what the measurement of
+/// a lamp is good to.
+const SEAM: f64 = 1e-3;
+
 /// Decodes a file.
 ///
 /// # Errors
 /// With line and column of what is not as the format asks, or is not of the kinds above.
 pub fn decode(bytes: &[u8]) -> Result<Photometry, FormatError> {
-    let mut words = Words::after_header(bytes)?;
-    if words.is_tilt_included {
-        skip_tilt(&mut words)?;
+    let (header, mut words) = Words::after_header(bytes)?;
+    let mut notes = vec![];
+    match header.tilt {
+        Tilt::None => {}
+        Tilt::Included => skip_tilt(&mut words)?,
+        Tilt::File(name) => {
+            let note =
+                format!("the factors for tilt in '{name}' are left out: they do not apply to a fixed lamp");
+            notes.push((header.tilt_place, note));
+        }
     }
     words.number("the number of lamps", "above 0", |v| v > 0.0)?;
-    words.number("lumens of a lamp", "above 0, or -1", |v| v > 0.0 || v == -1.0)?;
+    words.number("lumens of a lamp", "0 or more, or -1", |v| v >= 0.0 || v == -1.0)?;
     let multiplier = words.number("the multiplier", "above 0", |v| v > 0.0)?;
     let verticals = words.count("the number of vertical angles", 2)?;
     let horizontals = words.count("the number of horizontal angles", 1)?;
@@ -55,18 +71,56 @@ pub fn decode(bytes: &[u8]) -> Result<Photometry, FormatError> {
         words.number(side, "a finite number", |_| true)?;
     }
     let ballast = words.number("the ballast factor", "above 0", |v| v > 0.0)?;
-    let lamp = words.number("the ballast-lamp factor", "above 0", |v| v > 0.0)?;
+    let lamp = if header.is_of_2019 {
+        words.number("the file generation type", "above 0", |v| v > 0.0)?;
+        1.0
+    } else {
+        words.number("the ballast-lamp factor", "above 0", |v| v > 0.0)?
+    };
     words.number("the input watts", "0 or more", |v| v >= 0.0)?;
     let vertical_deg = vertical_angles(&mut words, verticals)?;
     let horizontal_deg = horizontal_angles(&mut words, horizontals)?;
-    let factor = multiplier * ballast * lamp;
-    let mut candela = vec![];
-    for _ in 0..verticals.saturating_mul(horizontals) {
-        let expected = "0 or more, and with all factors 1e12 at most";
-        candela
-            .push(words.number("candelas", expected, |v| v >= 0.0 && v * factor <= MOST_CANDELA)? * factor);
+    let mut columns = vec![];
+    for _ in 0..horizontals {
+        columns.push(column(&mut words, verticals, multiplier * ballast * lamp)?);
     }
-    Ok(Photometry { vertical_deg, horizontal_deg, candela })
+    words.end(&format!("{verticals} x {horizontals} candelas"))?;
+    notes.extend(odd(&columns, &horizontal_deg));
+    let candela = columns.into_iter().flat_map(|(_, candela)| candela).collect();
+    Ok(Photometry { vertical_deg, horizontal_deg, candela, notes })
+}
+
+/// The intensities at one horizontal angle, and where the first of them stands.
+fn column(words: &mut Words, verticals: usize, factor: f64) -> Result<(Position, Vec<f64>), FormatError> {
+    let mut candela = vec![];
+    let mut place = words.place;
+    for i in 0..verticals {
+        let expected = "0 or more, and with all factors 1e12 at most";
+        let value = words.number("candelas", expected, |v| v >= 0.0 && v * factor <= MOST_CANDELA)?;
+        candela.push(value * factor);
+        if i == 0 {
+            place = words.place;
+        }
+    }
+    Ok((place, candela))
+}
+
+/// Intensities that are as the format asks, but hardly what their author meant.
+fn odd(columns: &[(Position, Vec<f64>)], horizontal_deg: &[f64]) -> Option<(Position, String)> {
+    let ((first_place, first), (last_place, last)) = (columns.first()?, columns.last()?);
+    let largest = columns.iter().flat_map(|(_, candela)| candela).copied().fold(0.0, f64::max);
+    if largest == 0.0 {
+        return Some((*first_place, "all candelas are 0: the lamp gives no light".to_owned()));
+    }
+    let is_round = horizontal_deg.len() > 1 && horizontal_deg.last().is_some_and(|&a| is_angle(a, &[360.0]));
+    let apart = first.iter().zip(last).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    (is_round && apart > SEAM * largest).then(|| {
+        let note = format!(
+            "the candelas at 360 degrees are not those at 0, which is the same direction, but up to {apart} cd off: \
+             the light has an edge there"
+        );
+        (*last_place, note)
+    })
 }
 
 fn skip_tilt(words: &mut Words) -> Result<(), FormatError> {

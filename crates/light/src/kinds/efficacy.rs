@@ -29,7 +29,8 @@ pub static EFFICACY_SCALE_BLOCK: Block = Block::new(
             "overall_luminous_efficacy",
             Kind::Real,
             Presence::Required,
-            "Luminous flux for each watt drawn: about 17.5 for an incandescent bulb, 60 for a fluorescent tube.",
+            "Luminous flux for each watt drawn: about 17.5 for an incandescent bulb, 60 for a fluorescent tube. \
+             More than 683 no light has.",
         )
         .aliases(&["overall_luminous_efficiacy"])
         .unit("lm/W")

@@ -10,7 +10,8 @@ use indigo_texture::declare::TEXTURE;
 pub static BLOCK: Block = Block::new(
     "meshlight",
     "A lamp in the shape of a mesh. It emits from the front of its triangles (the side from which their \
-     vertices run counter-clockwise), and scatters light by the mesh's materials besides.",
+     vertices run counter-clockwise in the mesh itself: a transformation that mirrors the mesh carries its front \
+     along), and scatters light by the mesh's materials besides.",
     &[
         POS,
         SCALE,
@@ -53,12 +54,15 @@ pub static BLOCK: Block = Block::new(
 /// The declaration of `ies_profile`.
 pub static IES_PROFILE: Block = Block::new(
     "ies_profile",
-    "A measured distribution of light over directions, from a file by IES LM-63 (1986, 1991, 1995 or 2002). Each \
-     triangle emits about its own normal, so the mesh should be flat. Horizontal angles count from the x \
-     axis of the mesh, counter-clockwise seen from behind the lamp; a mesh that lies across its x axis has no \
-     such angle, and is to be modelled level and turned by its `rotation`. Files of photometric type C with \
-     vertical angles from 0 to 90 degrees are supported, and from 0 to 180: such a lamp shines from the back \
-     of its triangles, too. Factors for tilt (TILT=INCLUDE) do not apply to a fixed lamp.",
+    "A measured distribution of light over directions, from a file by IES LM-63 (1986, 1991, 1995, 2002 or 2019). \
+     Each triangle emits about its own normal, so the mesh should be flat; one that is not is warned of. Horizontal \
+     angles count from the x axis of the mesh, counter-clockwise seen from behind the lamp; a mesh that lies across \
+     its x axis has no such angle, and is to be modelled level and turned by its `rotation`. Files of photometric \
+     type C with vertical angles from 0 to 90 degrees are supported, and from 0 to 180: such a lamp shines from the \
+     back of its triangles, too. Candelas count by the multiplier, the ballast factor and, up to the edition of 2002, \
+     the ballast-lamp factor; in its place the edition of 2019 has the file generation type, which is no factor. \
+     Lumens per lamp and factors for tilt do not count: these do not apply to a fixed lamp, be they in the file \
+     (TILT=INCLUDE) or in another, which is not read.",
     &[Field::new("path", Kind::Path, Presence::Required, "The IES file, relative to the scene file.")],
 )
 .with_later(&[Later::new("material_name", "1.1")])

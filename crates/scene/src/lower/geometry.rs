@@ -9,7 +9,7 @@ use crate::settings::Settings;
 use indigo_decl::Node;
 use indigo_diag::{Diagnostic, Sink, Span};
 use indigo_geom::Object;
-use indigo_math::Vec3d;
+use indigo_math::{Bounds3, Transform, Vec3d};
 
 /// How far from 1 the length of a plane's normal may be: decimal rounding of exporters.
 const UNIT_TOLERANCE: f64 = 1e-3;
@@ -17,6 +17,14 @@ const UNIT_TOLERANCE: f64 = 1e-3;
 /// How far from the camera anything may be, in metres: some times the distance of the sun. Volumes of that size are
 /// the largest numbers that come up, and single precision holds them.
 pub(super) const FARTHEST: f64 = 1e12;
+
+/// The corners of a cube round the origin, from -`reach` to `reach`, as they are placed.
+fn box_corners(transform: &Transform, reach: f64) -> impl Iterator<Item = Vec3d> + '_ {
+    (0..8usize).map(move |i| {
+        let along = |axis: usize| if i >> axis & 1 == 0 { reach } else { -reach };
+        transform.point(Vec3d::new(along(0), along(1), along(2)))
+    })
+}
 
 /// All objects in render space.
 pub(super) struct Geometry {
@@ -52,13 +60,9 @@ impl Geometry {
     pub(super) fn refuse_far(&self, object: &Object, reach: f64, span: Span, sink: &mut Sink) {
         let largest = |v: Vec3d| v.x.abs().max(v.y.abs()).max(v.z.abs());
         let distance = match self.to_render_space(*object) {
-            Object::Mesh { transform, .. } => {
-                let corner = |i: usize| {
-                    let along = |axis: usize| if i >> axis & 1 == 0 { reach } else { -reach };
-                    largest(transform.point(Vec3d::new(along(0), along(1), along(2))))
-                };
-                (0..8).map(corner).fold(0.0, |most: f64, d| if d > most || d.is_nan() { d } else { most })
-            }
+            Object::Mesh { transform, .. } => box_corners(&transform, reach)
+                .map(largest)
+                .fold(0.0, |most: f64, d| if d > most || d.is_nan() { d } else { most }),
             Object::Sphere { center, radius } => largest(center) + radius,
             Object::Plane { dist, .. } => dist.abs(),
         };
@@ -66,6 +70,24 @@ impl Geometry {
             sink.push(
                 Diagnostic::error(codes::GEOMETRY, span, "this is too large or too far away to be rendered")
                     .expected(format!("expected nothing farther than {FARTHEST:e} m from the camera")),
+            );
+        }
+    }
+
+    /// Warns of a mesh so small for its distance that its vertices, rounded to single precision, move by more than a
+    /// sixteenth of its size.
+    fn warn_of_rounding(&self, object: &Object, reach: f64, span: Span, sink: &mut Sink) {
+        let Object::Mesh { transform, .. } = self.to_render_space(*object) else { return };
+        let bounds = Bounds3::of_points(box_corners(&transform, reach));
+        let farthest = bounds.lo.abs().max_component().max(bounds.hi.abs().max_component());
+        let size = bounds.size().max_component();
+        // What is a point by itself loses nothing, and what lies beyond all is refused.
+        if size > 0.0 && farthest * f64::from(f32::EPSILON) > size / 8.0 && farthest <= FARTHEST {
+            let message =
+                "this is too far away for its size: rounding to single precision leaves little of its shape";
+            sink.push(
+                Diagnostic::warning(codes::ROUNDED, span, message)
+                    .note(format!("it is {farthest:.3e} m from the camera")),
             );
         }
     }
@@ -172,6 +194,10 @@ impl Geometry {
             mesh.slots.iter().map(|(name, span)| materials.get(name, *span, uv, context)).collect();
         let object = Object::Mesh { mesh: id, transform };
         self.refuse_far(&object, mesh.reach, node.span, context.sink);
+        // Of lamps the triangles are looked at.
+        if light.is_none() {
+            self.warn_of_rounding(&object, mesh.reach, node.span, context.sink);
+        }
         Some((self.add(object, slots, light), id))
     }
 

@@ -4,12 +4,16 @@ use super::Context;
 use super::materials::{MaterialTable, UvSets};
 use crate::codes;
 use indigo_decl::Node;
-use indigo_diag::{Diagnostic, Sink};
+use indigo_diag::{Diagnostic, Sink, Span};
 use indigo_formats::ies;
 use indigo_geom::{Object, TriangleMesh};
 use indigo_light::{AreaLight, Profile};
 use indigo_math::{Vec2, Vec3d};
+use indigo_spectrum::observer::LUMENS_PER_WATT;
 use indigo_spectrum::{Spectrum, read};
+
+/// The part of its area that a lamp or portal may lose or gain by rounding, without a word: what can hardly be seen.
+const MOST_ROUNDING: f64 = 0.01;
 
 /// The triangles of a placed mesh.
 pub(super) struct Shape<'a> {
@@ -39,6 +43,36 @@ impl<'a> Shape<'a> {
     /// Corners of the triangles, counter-clockwise seen from the front.
     pub(super) fn fronts(&self) -> impl Iterator<Item = [Vec3d; 3]> + '_ {
         self.corners.iter().map(|&[a, b, c]| if self.is_mirrored { [a, c, b] } else { [a, b, c] })
+    }
+
+    /// Reports what rounding to single precision makes of it, as the scene is traced.
+    pub(super) fn report_rounding(&self, span: Span, sink: &mut Sink) {
+        let area = |corners: [Vec3d; 3]| {
+            let [a, b, c] = corners;
+            0.5 * (b - a).cross(c - a).length()
+        };
+        let rounded = |corner: Vec3d| corner.cast::<f32>().cast::<f64>();
+        let total: f64 = self.corners.iter().map(|&corners| area(corners)).sum();
+        let kept: f64 = self.corners.iter().map(|&corners| area(corners.map(rounded))).sum();
+        if total > 0.0 && kept == 0.0 {
+            let message = "this is too far away for its size: rounded to single precision it has no area";
+            sink.push(
+                Diagnostic::error(codes::GEOMETRY, span, message)
+                    .hint("make it larger, or place it nearer to the camera"),
+            );
+        } else if (kept - total).abs() > MOST_ROUNDING * total {
+            let message = format!(
+                "this is far away for its size: rounding to single precision changes its area from {total} to {kept} m²"
+            );
+            sink.push(Diagnostic::warning(codes::ROUNDED, span, message));
+        }
+    }
+
+    /// How far, in degrees, its triangles face away from their common direction: the angle of the mean cosine.
+    fn bend_deg(&self) -> f64 {
+        let areas = self.corners.iter().map(|[a, b, c]| (*b - *a).cross(*c - *a));
+        let (sum, total) = areas.fold((Vec3d::ZERO, 0.0), |(sum, total), n| (sum + n, total + n.length()));
+        if total > 0.0 { (sum.length() / total).min(1.0).acos().to_degrees() } else { 0.0 }
     }
 
     fn light(&self, radiance: Spectrum) -> AreaLight {
@@ -75,7 +109,7 @@ pub(super) fn mesh_light(
         }
     }
     match node.node("ies_profile") {
-        Some(profile) => with_profile(node, profile, lamp, shape.x_axis, errors_before, context),
+        Some(profile) => with_profile(node, profile, lamp, shape, errors_before, context),
         None => scaled(node, lamp, errors_before, context.sink),
     }
 }
@@ -83,7 +117,20 @@ pub(super) fn mesh_light(
 /// The lamp with the flux that its `efficacy_scale` asks for.
 fn scaled(node: &Node, lamp: AreaLight, errors_before: usize, sink: &mut Sink) -> AreaLight {
     let Some(scale) = node.node("efficacy_scale") else { return lamp };
-    let flux = scale.real("power_drawn") * scale.real("overall_luminous_efficacy");
+    let efficacy = scale.real("overall_luminous_efficacy");
+    if efficacy > LUMENS_PER_WATT {
+        let most = format!("{LUMENS_PER_WATT:.0} lm/W is that of light of 555 nm, made without loss");
+        sink.push(
+            Diagnostic::warning(
+                codes::EFFICACY,
+                scale.span_of("overall_luminous_efficacy"),
+                "no lamp has such an efficacy",
+            )
+            .expected(format!("expected at most 683, found {efficacy}"))
+            .note(most),
+        );
+    }
+    let flux = scale.real("power_drawn") * efficacy;
     if let Some(scaled) = lamp.clone().with_flux(flux) {
         read::refuse_excess(scaled.radiance(), scale.span, sink);
         return scaled;
@@ -95,12 +142,16 @@ fn scaled(node: &Node, lamp: AreaLight, errors_before: usize, sink: &mut Sink) -
     lamp
 }
 
+/// How far the triangles of a photometric lamp may face apart, in degrees. An even lamp loses the cosine of it straight
+/// ahead, here a thousandth.
+const MOST_BEND_DEG: f64 = 2.56;
+
 /// The lamp with the directions and the flux of a file.
 fn with_profile(
     node: &Node,
     profile: &Node,
     lamp: AreaLight,
-    x_axis: Vec3d,
+    shape: &Shape,
     errors_before: usize,
     context: &mut Context,
 ) -> AreaLight {
@@ -115,8 +166,16 @@ fn with_profile(
             .hint("take one of them out"),
         );
     }
+    let bend_deg = shape.bend_deg();
+    if bend_deg > MOST_BEND_DEG {
+        let message = format!(
+            "the mesh of a photometric lamp is not flat: its triangles, each of which emits about its own normal, \
+             face {bend_deg:.1} degrees away from their common direction"
+        );
+        context.sink.push(Diagnostic::warning(codes::NOT_FLAT, node.span, message));
+    }
     let Some((photometry, largest_cd)) = read_profile(profile, context) else { return lamp };
-    if let Some(lamp) = lamp.clone().with_profile(photometry, x_axis) {
+    if let Some(lamp) = lamp.clone().with_profile(photometry, shape.x_axis) {
         let largest = lamp.radiance().scaled(largest_cd / lamp.area());
         read::refuse_excess(&largest, profile.span, context.sink);
         return lamp;
@@ -134,6 +193,10 @@ fn read_profile(node: &Node, context: &mut Context) -> Option<(Profile, f64)> {
     let file = context.read(&path.value, path.span)?;
     match ies::decode(&file.bytes) {
         Ok(p) => {
+            for (position, note) in &p.notes {
+                let note = format!("{}:{position}: {note}", file.path);
+                context.sink.push(Diagnostic::warning(codes::FILE_NOTE, path.span, note));
+            }
             let largest = p.candela.iter().copied().fold(0.0, f64::max);
             Some((Profile::new(&p.vertical_deg, &p.horizontal_deg, &p.candela), largest))
         }

@@ -44,6 +44,7 @@ impl Lights {
             let name = node.text("mesh_name");
             let uv_names = meshes.get(&name.value, name.span, context).map(|m| m.uv_names.clone());
             let shape = Shape::new(geometry.object(object), meshes.triangles(mesh));
+            shape.report_rounding(node.span, context.sink);
             let uv = UvSets::Named(uv_names.as_deref().unwrap_or_default());
             self.lamps.push(lamps::mesh_light(node, &shape, uv, materials, context));
         }
@@ -66,6 +67,7 @@ impl Lights {
             geometry.refuse_far(&placed, node.real("width").max(node.real("height")) / 2.0, node.span, sink);
             let object = geometry.add(placed, [materials.black()], Some(light));
             let shape = Shape::new(geometry.object(object), meshes.triangles(mesh));
+            shape.report_rounding(node.span, sink);
             self.lamps.push(lamps::rectangle_light(node, &shape, sink));
         }
     }
@@ -89,7 +91,9 @@ impl Lights {
             let object = Object::Mesh { mesh, transform };
             geometry.refuse_far(&object, reach, node.span, context.sink);
             let object = geometry.to_render_space(object);
-            self.portals.extend(Shape::new(&object, meshes.triangles(mesh)).fronts());
+            let shape = Shape::new(&object, meshes.triangles(mesh));
+            shape.report_rounding(node.span, context.sink);
+            self.portals.extend(shape.fronts());
         }
         let Some(span) = first.filter(|_| self.distant.is_empty()) else { return };
         context.sink.push(
