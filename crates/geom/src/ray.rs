@@ -30,7 +30,8 @@ impl Ray {
         self.o + self.d * t
     }
 
-    /// The rest of the ray behind a hit at `t`, clear of it by `clearance` metres.
+    /// The rest of the ray behind a hit at `t`, clear of it by `clearance` metres: the error of the point, and no more,
+    /// since what would be skipped beside it may be the other side of the same object.
     ///
     /// Origin and far end stay where they are and the ray on its line: an offset along the surface's normal
     /// would shift it a little at every surface, and many of them would bend the way.

@@ -7,6 +7,7 @@
 
 mod bump;
 mod directional_albedo;
+mod facet_albedo;
 pub mod fresnel;
 pub mod materials;
 pub mod media;

@@ -78,6 +78,31 @@ fn directions_follow_the_density_which_integrates_to_one() {
     }
 }
 
+/// Each lane has the mean cosine of its own wavelength, whichever of them is the hero.
+#[test]
+fn each_wavelength_has_its_own_mean_cosine() {
+    let kind = build(
+        "<henyey_greenstein><g_spectrum><peak><peak_min>500</peak_min><peak_width>80</peak_width>\
+         <base_value>-0.3</base_value><peak_value>0.8</peak_value></peak></g_spectrum></henyey_greenstein>",
+    );
+    let (wo, wi) = (Vec3::new(0.0, 0.0, 1.0), Vec3::new(0.6, 0.0, -0.8));
+    let mut met = [false; 2];
+    for i in 0..50 {
+        let lambda = SampledWavelengths::sample((i as Real + 0.5) / 50.0);
+        let pdf = kind.at(&lambda).pdf(wo, wi);
+        for (lane, nm) in lambda.lambda.into_iter().enumerate() {
+            let is_inside = (500.0..580.0).contains(&nm);
+            let g: f64 = if is_inside { 0.8 } else { -0.3 };
+            met[usize::from(is_inside)] = true;
+            // The light goes on at a cosine of 0.8.
+            let expected = (1.0 - g * g) / (4.0 * std::f64::consts::PI * (1.0 + g * g - 1.6 * g).powf(1.5));
+            let p = pdf[lane] as f64;
+            assert!((p / expected - 1.0).abs() < 1e-5, "lane {lane}, {nm} nm: {p} instead of {expected}");
+        }
+    }
+    assert_eq!(met, [true; 2]);
+}
+
 /// Mean cosines beyond the limits are those of the limits.
 #[test]
 fn the_mean_cosine_is_clamped() {

@@ -35,7 +35,7 @@ impl Scene {
                     entry.1 += if direction.dot(at.n_g) > 0.0 { 1 } else { -1 };
                 }
             }
-            ray = ray.beyond(hit.t, at.p_error.length().max(self.nudge_m));
+            ray = ray.beyond(hit.t, at.p_error.length());
         }
         let mut stack = MediumStack::AIR;
         for (medium, times) in left {

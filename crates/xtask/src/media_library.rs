@@ -53,7 +53,7 @@ fn liquid(row: &[&str]) -> (String, String) {
 }
 
 fn dielectric(row: &[&str]) -> (String, String) {
-    let [name, a, b, what] = [row[0], row[1], row[2], row[3]];
+    let [name, a, b, what] = [row[0], row[1], row[2], row[4]];
     let is_liquid = ["water", "ethanol"].contains(&name);
     let precedence = if is_liquid { LIQUID_PRECEDENCE } else { SOLID_PRECEDENCE };
     let basic = format!("            <ior>{a}</ior>\n            <cauchy_b_coeff>{b}</cauchy_b_coeff>\n");
@@ -98,5 +98,14 @@ mod tests {
         assert_eq!(identifier("Mission Bay 10ft Deep (30 min)"), "mission_bay_10ft_deep_30_min");
         let (_, milk) = files.iter().find(|(path, _)| path == "media/milk_regular.igs").expect("milk");
         assert!(milk.contains("18205.267 20382.6 22369.8"), "{milk}");
+    }
+
+    /// Cauchy's A is the index at infinite wavelength, which tables like to mix up with that at the sodium line.
+    #[test]
+    fn dielectrics_have_their_index_at_the_sodium_line() {
+        for row in rows(DIELECTRICS) {
+            let [a, b, n_d] = [1, 2, 3].map(|at| row[at].parse::<f64>().expect("a number"));
+            assert!((a + b / (0.5893 * 0.5893) - n_d).abs() < 1e-3, "{row:?}");
+        }
     }
 }

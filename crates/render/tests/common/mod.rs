@@ -110,7 +110,8 @@ impl Measured {
     }
 }
 
-/// Renders `batches` times with `passes` samples per output pixel each, and measures the regions.
+/// Renders `batches` times with `passes` samples per output pixel each, and measures the regions: of the layer of
+/// camera paths alone.
 pub fn measure_regions(scene: &Scene, regions: &[Region], batches: u64, passes: u64) -> Vec<Measured> {
     let mut measured: Vec<Measured> =
         regions.iter().map(|_| Measured { xyza: [Moments::default(); 4] }).collect();
@@ -166,9 +167,19 @@ impl Mode {
 
 /// Mean luminances of developed pictures in a mode.
 pub fn luminance_in_mode(scene: &mut Scene, mode: Mode, batches: u64, passes: u64) -> Moments {
+    xyz_in_mode(scene, mode, batches, passes)[1]
+}
+
+/// Mean X, Y and Z of developed pictures in a mode: of all layers of the film.
+pub fn xyz_in_mode(scene: &mut Scene, mode: Mode, batches: u64, passes: u64) -> [Moments; 3] {
     mode.set(scene);
-    Moments::of((0..batches).map(|seed| {
+    let mut measured = [Moments::default(); 3];
+    for seed in 0..batches {
         let picture = film(scene, 7000 + seed, passes).develop();
-        picture.pixels.iter().map(|p| f64::from(p[1])).sum::<f64>() / picture.pixels.len() as f64
-    }))
+        for (c, moments) in measured.iter_mut().enumerate() {
+            let sum: f64 = picture.pixels.iter().map(|p| f64::from(p[c])).sum();
+            moments.add(sum / picture.pixels.len() as f64);
+        }
+    }
+    measured
 }

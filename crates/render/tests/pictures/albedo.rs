@@ -188,3 +188,28 @@ fn what_absorbs_nothing_is_not_to_be_told_from_its_surroundings() {
         }
     }
 }
+
+/// What facets lose among one another is given back, whatever their width, also where a map gives it.
+#[test]
+fn metals_of_any_exponent_are_white() {
+    let mapped = phong(&format!(
+        "<exponent_map><path>half.exr</path><exponent>1</exponent><b>90</b></exponent_map>\
+         <specular_reflectivity_spectrum>{}</specular_reflectivity_spectrum>",
+        uniform(1.0)
+    ));
+    for (kind, degrees) in [
+        (metal(45.0, 1.0), 0.0),
+        (metal(45.0, 1.0), 45.0),
+        (metal(300.0, 1.0), 0.0),
+        (metal(900.0, 1.0), 0.0),
+        (metal(900.0, 1.0), 45.0),
+        (mapped, 45.0),
+    ] {
+        for mode in &MODES[..2] {
+            let mut scene = sheet_with(&kind, degrees, "", "");
+            let measured = luminance_in_mode(&mut scene, *mode, 16, 640);
+            let what = format!("{kind} at {degrees}°, {mode}");
+            assert_near(&what, &measured, RADIANCE * NITS_PER_UNIFORM, 1e-3);
+        }
+    }
+}

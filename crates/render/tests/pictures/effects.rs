@@ -5,14 +5,15 @@
 use super::common::judge::{NITS_PER_UNIFORM, assert_near};
 use super::common::shapes::{Mesh, model};
 use super::common::text::{
-    background, basic, flat_camera, henyey_greenstein, medium, scattering, scene_file, settings, specular,
-    uniform,
+    background, basic, flat_camera, grey, henyey_greenstein, medium, scattering, scene_file, settings,
+    specular, uniform,
 };
 use super::common::{Measured, measure, scene, scene_with};
-use super::materials::{RADIANCE, point, sheet_with};
+use super::materials::{RADIANCE, point, row, sheet_with};
 use indigo_imaging::{LinearImage, Metadata, exr};
 use indigo_math::{Real, Vec3};
 use indigo_scatter::{Interface, Mode};
+use indigo_scene::Scene;
 
 /// A sheet in even light shows just its albedo.
 #[test]
@@ -51,40 +52,116 @@ fn albedos_are_what_their_elements_say() {
     }
 }
 
-/// `uv_set` chooses among the coordinates that a mesh exposes: here one of them has the map's dark half.
+/// A sheet of a kind of material whose mesh exposes two sets of coordinates: `default` lies in the left half of the
+/// map `two.exr`, which is 0.2 there, and `other` in the right half, 0.7. Along x, `default` spans 0.2 of the map and
+/// `other` 0.3. `slope.exr` is flat in its left half and rises from 0 to 1 in the right one.
+fn sheet_of_two_sets(kind: &str, others: &str) -> Scene {
+    let vertex = |x: f64, y: f64| {
+        let (a, b) = (0.2 + 0.1 * x, 0.75 + 0.15 * x);
+        format!("<vertex pos=\"{x} {y} 0\" uv0=\"{a} {y}\" uv1=\"{b} {y}\"/>")
+    };
+    let vertices: String =
+        [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| vertex(x, y)).concat();
+    let expose =
+        |i: u32, name: &str| format!("<expose_uv_set><index>{i}</index><name>{name}</name></expose_uv_set>");
+    let text = scene_file(&[
+        settings(4, ""),
+        flat_camera([0.0, 0.0, 5.0], [0.0, 0.0, -1.0], 1e-3),
+        format!("<material><name>m</name>{kind}</material>"),
+        format!(
+            "<mesh><name>sheet</name><embedded>{}{}{vertices}<triangle_set><material_name>m</material_name>\
+             <tri>0 1 2</tri><tri>0 2 3</tri></triangle_set></embedded></mesh>",
+            expose(0, "default"),
+            expose(1, "other")
+        ),
+        model("sheet"),
+        others.to_owned(),
+    ]);
+    let two: Vec<f32> = (0..16).map(|i| if i < 8 { 0.2 } else { 0.7 }).collect();
+    let slope: Vec<f32> = (0..64).map(|i| (i as f32 - 31.5).max(0.0) / 32.0).collect();
+    scene_with(&text, [("two.exr", row(&two)), ("slope.exr", row(&slope))])
+}
+
+/// `uv_set` chooses among the coordinates that a mesh exposes, wherever a map is used.
 #[test]
-fn a_texture_is_looked_up_by_its_uv_set() {
-    let shown = |set: &str| {
-        let map = format!(
-            "<material><name>m</name><diffuse><albedo_texture>{set}<path>two.exr</path><exponent>1</exponent></albedo_texture>\
-             </diffuse></material>"
-        );
-        let vertex = |x: i32, y: i32| format!("<vertex pos=\"{x} {y} 0\" uv0=\"0.2 0.5\" uv1=\"0.8 0.5\"/>");
-        let vertices: String = [(-1, -1), (1, -1), (1, 1), (-1, 1)].map(|(x, y)| vertex(x, y)).concat();
-        let expose = |i: u32, name: &str| {
-            format!("<expose_uv_set><index>{i}</index><name>{name}</name></expose_uv_set>")
+fn every_map_is_looked_up_by_its_uv_set() {
+    let light = background(&uniform(RADIANCE));
+    for (set, value) in [("", 0.2), ("<uv_set>default</uv_set>", 0.2), ("<uv_set>other</uv_set>", 0.7)] {
+        let map = |name: &str, more: &str| {
+            format!("<{name}>{set}<path>two.exr</path><exponent>1</exponent>{more}</{name}>")
         };
+        let albedo = format!("<diffuse>{}</diffuse>", map("albedo_texture", ""));
+        let blend =
+            format!("<blend>{}<a_name>dark</a_name><b_name>light</b_name></blend>", map("blend_map", ""));
+        let parts = light.clone() + &grey("dark", 0.1) + &grey("light", 0.9);
+        for (what, kind, others, expected) in
+            [("albedo", albedo, &light, value), ("blend", blend, &parts, 0.1 + 0.8 * value)]
+        {
+            let measured = measure(&sheet_of_two_sets(&kind, others), 16, 384);
+            let expected = expected * RADIANCE * NITS_PER_UNIFORM;
+            assert_near(&format!("{what} {set}"), measured.luminance(), expected, 4e-3);
+        }
+        // The peak of the lobe along the normal is (n + 2) / 2π high, and shows by the coat's 0.04 over 4.
+        let gloss = format!("<phong><ior>1.5</ior>{}</phong>", map("exponent_map", "<b>100</b>"));
+        let along = point(&sheet_of_two_sets(&gloss, &light), 0.0, 550.0, Interface::NONE)
+            .eval(Vec3::new(0.0, 0.0, 1.0), Mode::Radiance);
+        let expected = 0.01 * (100.0 * value + 2.0) / std::f64::consts::TAU;
+        assert!((along.f_cos.hero() as f64 / expected - 1.0).abs() < 1e-3, "exponent {set}: {along:?}");
+    }
+}
+
+/// Both the map's gradient and the way that the coordinates lie on the surface are those of the map's set.
+#[test]
+fn a_bump_map_is_looked_up_by_its_uv_set() {
+    let lit = |set: &str| {
+        let bump = format!("<bump_map>{set}<path>slope.exr</path><exponent>1</exponent></bump_map>");
+        let kind = format!("<diffuse><albedo_spectrum>{}</albedo_spectrum>{bump}</diffuse>", uniform(0.5));
+        // From x = -16, z = 12: along (-0.8, 0, 0.6).
+        let lamp = format!(
+            "<rectanglelight><pos>-16 0 12</pos><width>0.2</width><height>0.2</height><spectrum>{}</spectrum></rectanglelight>",
+            uniform(1e7)
+        );
+        measure(&sheet_of_two_sets(&kind, &lamp), 16, 64)
+    };
+    let flat = lit("");
+    // Up by 2 over the map, of which 0.3 lie on two metres.
+    let slope = 0.3;
+    let expected = flat.luminance().mean() * (0.8 * slope + 0.6) / f64::hypot(1.0, slope) / 0.6;
+    assert_near("a slope of 0.3", lit("<uv_set>other</uv_set>").luminance(), expected, 2e-3);
+}
+
+/// Red, green and blue of a texel and of a `colour` are those of the `rgb` spectrum of the same values.
+#[test]
+fn colours_keep_the_order_of_their_channels() {
+    let shown = |content: &str| {
         let text = scene_file(&[
             settings(4, ""),
             flat_camera([0.0, 0.0, 5.0], [0.0, 0.0, -1.0], 1e-3),
-            map,
-            format!(
-                "<mesh><name>sheet</name><embedded>{}{}{vertices}<triangle_set><material_name>m</material_name>\
-                 <tri>0 1 2</tri><tri>0 2 3</tri></triangle_set></embedded></mesh>",
-                expose(0, "default"),
-                expose(1, "other")
-            ),
-            model("sheet"),
+            format!("<material><name>m</name><diffuse>{content}</diffuse></material>"),
+            super::common::text::sphere([0.0; 3], 1.0, "m"),
             background(&uniform(RADIANCE)),
         ]);
-        let pixels = (0..16).map(|i| if i < 8 { 0.2f32 } else { 0.7 }).map(|v| [v, v, v, 1.0]).collect();
-        let image = LinearImage { width: 16, height: 1, pixels };
-        let two = exr::encode(&image, &Metadata::default()).expect("a picture");
-        measure(&scene_with(&text, [("two.exr", two)]), 16, 96)
+        let image = LinearImage { width: 1, height: 1, pixels: vec![[0.8, 0.4, 0.1, 1.0]] };
+        let texel = exr::encode(&image, &Metadata::default()).expect("a picture");
+        measure(&scene_with(&text, [("texel.exr", texel)]), 8, 96)
     };
-    for (set, expected) in [("", 0.2), ("<uv_set>default</uv_set>", 0.2), ("<uv_set>other</uv_set>", 0.7)] {
-        let expected = expected * RADIANCE * NITS_PER_UNIFORM;
-        assert_near(set, shown(set).luminance(), expected, 4e-3);
+    let spectrum = |rgb: [f64; 3]| {
+        let [r, g, b] = rgb;
+        shown(&format!(
+            "<albedo_spectrum><rgb><rgb>{r} {g} {b}</rgb><gamma>1</gamma></rgb></albedo_spectrum>"
+        ))
+    };
+    let texel = shown("<albedo_texture><path>texel.exr</path><exponent>1</exponent></albedo_texture>");
+    let colour = shown("<colour>0.9 0.6 0.3</colour>");
+    for (what, is, expected) in [
+        ("texel", texel, spectrum([0.8, 0.4, 0.1])),
+        ("colour", colour, spectrum([0.9, 0.6, 0.3].map(|v: f64| v.powf(2.2)))),
+    ] {
+        for c in 0..3 {
+            // The same seeds draw the same wavelengths; texels find their spectra in a table.
+            let [is, expected] = [&is, &expected].map(|m| m.xyza[c].mean());
+            assert!((is / expected - 1.0).abs() < 5e-3, "{what}, channel {c}: {is} and not {expected}");
+        }
     }
 }
 

@@ -8,6 +8,7 @@ mod common;
 
 mod albedo;
 mod colour;
+mod coloured_media;
 mod direct_light;
 mod effects;
 mod environment;

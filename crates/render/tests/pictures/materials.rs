@@ -18,14 +18,15 @@ pub const RADIANCE: f64 = 1.0e5;
 const WHITE: &str = "<uniform><value>1</value></uniform>";
 
 /// A picture of one row of greys.
-fn row(values: &[f32]) -> Vec<u8> {
+pub fn row(values: &[f32]) -> Vec<u8> {
     let pixels = values.iter().map(|&v| [v, v, v, 1.0]).collect();
     let image = LinearImage { width: values.len() as u32, height: 1, pixels };
     exr::encode(&image, &Metadata::default()).expect("a picture")
 }
 
 /// A square of side 2 of a kind of material, seen from an angle to its normal, in even light. `others` are further
-/// elements of the scene; the maps are `half.exr`, all 0.5, and `ramp.exr`, from 0 up to 1 along u.
+/// elements of the scene; the maps are `half.exr`, all 0.5, `quarter.exr`, all
+/// 0.25, and `ramp.exr`, from 0 up to 1 along u.
 pub fn sheet_with(kind: &str, degrees: f64, more_settings: &str, others: &str) -> Scene {
     let (sin, cos) = degrees.to_radians().sin_cos();
     let ramp: Vec<f32> = (0..64).map(|i| i as f32 / 64.0).collect();
@@ -42,7 +43,10 @@ pub fn sheet_with(kind: &str, degrees: f64, more_settings: &str, others: &str) -
         background(&uniform(RADIANCE)),
         others.to_owned(),
     ]);
-    scene_with(&text, [("half.exr", row(&[0.5])), ("ramp.exr", row(&ramp)), ("au.nk", GOLD.to_vec())])
+    let [half, quarter] = [0.5, 0.25].map(|v| row(&[v]));
+    let files =
+        [("half.exr", half), ("quarter.exr", quarter), ("ramp.exr", row(&ramp)), ("au.nk", GOLD.to_vec())];
+    scene_with(&text, files)
 }
 
 const GOLD: &[u8] = include_bytes!("../../../../nkdata/au.nk");
@@ -238,6 +242,9 @@ fn every_element_of_phong_has_its_effect() {
         (at(&coat(1.5, 100.0, "<diffuse>0.73 0.73 0.73</diffuse>")) - at(&coat(1.5, 100.0, &ground))).abs()
             < 2e-3
     );
+    // The spectrum counts before the colour.
+    let both = format!("<diffuse>0.9 0.9 0.9</diffuse>{ground}");
+    assert!((at(&coat(1.5, 100.0, &both)) - at(&coat(1.5, 100.0, &ground))).abs() < 1e-6);
     let map = "<albedo_texture><path>half.exr</path><exponent>1</exponent></albedo_texture>";
     assert!((at(&coat(1.5, 100.0, map)) - at(&coat(1.5, 100.0, &ground))).abs() < 2e-3);
     // A higher exponent has a brighter and narrower highlight.
@@ -268,6 +275,9 @@ fn the_kinds_of_phong_have_their_order() {
     assert!((at(&format!("{rest}{reflectivity}{gold}")) - alone(gold)).abs() < 1e-6);
     assert!((at(&format!("{rest}{reflectivity}")) - alone(&reflectivity)).abs() < 1e-6);
     assert!((at(&format!("{rest}<nk_data></nk_data>")) - at(&rest)).abs() < 1e-6);
+    // The texture counts before the spectrum of the ground: 0.5^2.2 of what the coat lets through, and not all of it.
+    let ground_alone = at(&rest.replace("<albedo_texture><path>half.exr</path></albedo_texture>", ""));
+    assert!((ground_alone - 1.0).abs() < 1e-3, "{ground_alone}");
     assert!(at(&rest) < 0.28 && alone(gold) > 0.7 && (alone(&reflectivity) - 0.3).abs() < 0.02);
 }
 
@@ -294,6 +304,7 @@ fn blends_mix_by_number_by_map_and_to_any_depth() {
         ("b alone", blend(1.0, "dark", "light"), &parts, 0.8),
         ("a quarter", blend(0.25, "dark", "light"), &parts, 0.35),
         ("a map of 0.5", map("half.exr"), &parts, 0.5),
+        ("a map of 0.25", map("quarter.exr"), &parts, 0.35),
         // The middle of the ramp, where the camera looks.
         ("a ramp", map("ramp.exr"), &parts, 0.5),
         ("nested", blend(0.5, "dark", "more"), &nested, 0.5 * (0.2 + 0.65)),

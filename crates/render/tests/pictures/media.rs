@@ -10,10 +10,10 @@ use super::common::{MODES, Measured, luminance_in_mode, measure, scene};
 use indigo_scene::Scene;
 
 /// Spectral radiance of the surroundings, W m^-3 sr^-1.
-const AROUND: f64 = 3.0e4;
+pub const AROUND: f64 = 3.0e4;
 
 /// Objects before a camera that sees a width of ±`tangent`, in light that is the same from everywhere.
-fn in_uniform_light(pos: [f64; 3], tangent: f64, parts: &[String]) -> Scene {
+pub fn in_uniform_light(pos: [f64; 3], tangent: f64, parts: &[String]) -> Scene {
     let head =
         [settings(16, ONE_PIXEL), flat_camera(pos, [0.0, 1.0, 0.0], tangent), background(&uniform(AROUND))];
     scene(&scene_file(&[head.as_slice(), parts].concat()))
@@ -163,6 +163,22 @@ fn a_scattering_ball_in_even_light_is_invisible() {
             let measured = luminance_in_mode(&mut scene, mode, 16, if mode.metropolis { 768 } else { 320 });
             assert_is(&format!("{what}, {mode}"), &measured, AROUND * NITS_PER_UNIFORM, 1e-3);
         }
+    }
+}
+
+/// Light that passes unseen surfaces is not moved: along an edge of a small cube of fog, where ways inside are as
+/// short as one likes, none misses its way out.
+#[test]
+fn fog_is_not_dark_along_its_edges() {
+    let (half, turned) = (0.01, 0.5f64.sqrt() * 0.01);
+    let m = [turned, -turned, 0.0, turned, turned, 0.0, 0.0, 0.0, half];
+    let edges = Mesh::cube(1.0).placed(m, 1.0, [0.0; 3]);
+    let parts = [scatters(1.0, 0.0, 20.0, 0.0), edges.text("cube", "surface") + &model("cube")];
+    // A millimetre round the edge on the right.
+    let mut scene = in_uniform_light([2.0 * turned, -1.0, 0.0], 5e-4, &parts);
+    for mode in MODES {
+        let measured = luminance_in_mode(&mut scene, mode, 16, 64);
+        assert_is(&mode.to_string(), &measured, AROUND * NITS_PER_UNIFORM, 1e-3);
     }
 }
 

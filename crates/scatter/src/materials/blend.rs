@@ -55,6 +55,10 @@ pub static BLOCK: Block = Block::new(
 /// How deeply blends may be nested: far beyond what anyone draws, and what a thread's stack holds.
 pub const MAX_DEPTH: u32 = 200;
 
+/// How many constituents of a blend may let light pass as if nothing were there, each counted as often as it is part
+/// of the tree: every ray that looks through the surface asks all of them.
+pub const MAX_UNSEEN: u32 = 1024;
+
 /// Two materials at once.
 #[derive(Clone, Debug)]
 pub struct Blend {
@@ -78,20 +82,27 @@ struct Facts {
     deltas: u32,
     /// The one medium inside.
     medium: Option<MediumId>,
-    may_be_unseen: bool,
+    /// Constituents that light may pass as if nothing were there.
+    unseen: u32,
+    /// Whether one of them is nothing at all, between whatever media.
+    holds_nothing: bool,
     may_transmit: bool,
     /// Blends on the longest way down.
     depth: u32,
 }
 
 impl Facts {
+    const NONE: Self =
+        Self { deltas: 0, medium: None, unseen: 0, holds_nothing: false, may_transmit: false, depth: 0 };
+
     fn of(material: &Material) -> Self {
         match material {
             Material::Blend(blend) => blend.facts,
             other => Self {
                 deltas: u32::from(matches!(other, Material::Null | Material::Specular(_))),
                 medium: other.internal_medium(),
-                may_be_unseen: other.may_be_unseen(),
+                unseen: u32::from(other.may_be_unseen()),
+                holds_nothing: other.is_invisible(),
                 may_transmit: other.may_transmit(),
                 depth: 0,
             },
@@ -103,7 +114,8 @@ impl Facts {
         let facts = Self {
             deltas: self.deltas + other.deltas,
             medium: self.medium.or(other.medium),
-            may_be_unseen: self.may_be_unseen || other.may_be_unseen,
+            unseen: self.unseen + other.unseen,
+            holds_nothing: self.holds_nothing || other.holds_nothing,
             may_transmit: self.may_transmit || other.may_transmit,
             depth: 1 + self.depth.max(other.depth),
         };
@@ -121,6 +133,12 @@ impl Facts {
         }
         if facts.depth > MAX_DEPTH {
             return Err(["blends are nested more than 200 deep", "a tree that is not so deep"]);
+        }
+        if facts.unseen > MAX_UNSEEN {
+            return Err([
+                "this blend has more than 1024 transparent constituents",
+                "fewer in the whole tree",
+            ]);
         }
         Ok(facts)
     }
@@ -144,7 +162,7 @@ impl Blend {
                     .expected(format!("expected {expected}")),
             );
             // Reported once, not again by every blend above.
-            Facts { deltas: 0, medium: None, may_be_unseen: false, may_transmit: false, depth: 0 }
+            Facts::NONE
         });
         Self { share, a, b, facts }
     }
@@ -189,7 +207,7 @@ impl Blend {
 
     /// See [`SurfaceKind::may_be_unseen`](super::SurfaceKind::may_be_unseen).
     pub(super) fn may_be_unseen(&self) -> bool {
-        self.facts.may_be_unseen
+        self.facts.unseen > 0
     }
 
     /// See [`SurfaceKind::may_transmit`](super::SurfaceKind::may_transmit).
@@ -199,7 +217,9 @@ impl Blend {
 
     /// See [`SurfaceKind::unseen_share`](super::SurfaceKind::unseen_share).
     pub(super) fn unseen_share(&self, context: &MaterialContext, uv: &impl Fn(u32) -> Vec2) -> Real {
-        if !self.facts.may_be_unseen {
+        // All but nothing itself are seen between different indices.
+        let may_be_unseen = self.facts.holds_nothing || context.interface.is_matched();
+        if self.facts.unseen == 0 || !may_be_unseen {
             return 0.0;
         }
         let share = self.share(context, uv);

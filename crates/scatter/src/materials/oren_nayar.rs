@@ -96,7 +96,7 @@ impl SurfaceKind for OrenNayar {
 }
 
 /// The scale of the rows: nodes dense enough at grazing angles, and still so at normal ones, for 1e-4.
-const ROW_SCALE: f64 = 1.0;
+const ROW_SCALE: f64 = 4.0;
 
 /// One bounce between white facets.
 #[derive(Clone, Copy, Debug)]

@@ -14,7 +14,7 @@
 
 use super::fields::{ALBEDO_TEXTURE, BUMP_MAP, COLOUR_DEPRECATED, LATER, bump_map};
 use super::{MaterialContext, MaterialResources, SurfaceKind};
-use crate::directional_albedo::{AlbedoRow, integral};
+use crate::directional_albedo::AlbedoRow;
 use crate::fresnel::{conductor, dielectric, diffuse_average, schlick};
 use crate::microfacet::Microfacets;
 use crate::reflectance::Reflectance;
@@ -127,12 +127,12 @@ enum Kind {
 #[derive(Clone, Debug)]
 enum Gloss {
     Uniform(Microfacets, AlbedoRow),
-    /// By a map of exponents; rows for widths at equal steps of their square root from 0 to 1.
+    /// By a map of exponents; rows for widths at equal steps of their fourth root from 0 to 1.
     Map(TextureId, Box<[AlbedoRow]>),
 }
 
-/// Rows for exponent maps: between two of them albedos are linear to 2e-4.
-const MAP_ROWS: usize = 33;
+/// Rows for exponent maps: between two of them albedos are linear to 3e-4 at exponents up to 10,000.
+const MAP_ROWS: usize = 97;
 
 impl Phong {
     /// From its element: a measured metal before one of a given reflectivity, and that before a coat.
@@ -165,7 +165,7 @@ impl Phong {
             Gloss::Map(id, rows) => {
                 let map = &context.textures[*id as usize];
                 let facets = Microfacets::of_exponent(map.scalar(uv(map.uv_set)));
-                (facets, AlbedoRow::between(rows, facets.width().sqrt()))
+                (facets, AlbedoRow::between(rows, facets.width().sqrt().sqrt()))
             }
         };
         let lambda = context.lambda;
@@ -194,20 +194,16 @@ impl SurfaceKind for Phong {
 impl Kind {
     fn gloss(&self, node: &Node, resources: &mut dyn MaterialResources) -> Gloss {
         let row = |width: Real| {
-            let facets = Microfacets::of_width(width);
-            AlbedoRow::new(row_scale(facets.width()), |mu| match self {
-                Self::Coat { eta, .. } => albedo(facets, mu, |cos| dielectric(cos, *eta).reflectance),
+            AlbedoRow::of_facets(Microfacets::of_width(width), |cos| match self {
+                Self::Coat { eta, .. } => dielectric(cos, *eta).reflectance,
                 // Of white facets: what metals lack is given back in white, and coloured by the way.
-                _ => albedo(facets, mu, |_| 1.0),
+                _ => 1.0,
             })
         };
         if let Some(map) = node.node("exponent_map") {
             node.disregard_field("exponent");
-            let root = |i: usize| i as Real / (MAP_ROWS - 1) as Real;
-            return Gloss::Map(
-                resources.texture(map),
-                (0..MAP_ROWS).map(|i| row(root(i) * root(i))).collect(),
-            );
+            let width = |i: usize| (i as Real / (MAP_ROWS - 1) as Real).powi(4);
+            return Gloss::Map(resources.texture(map), (0..MAP_ROWS).map(|i| row(width(i))).collect());
         }
         // The stand-in is for scenes that lack both, which has been reported.
         let exponent = node.opt_real("exponent").map_or(1.0, |n| n.value);
@@ -247,30 +243,6 @@ fn average_of_metal(n: &Spectrum, k: &Spectrum) -> Spectrum {
 #[inline]
 fn between(average: SampledSpectrum, row: &AlbedoRow) -> SampledSpectrum {
     average.map(|f| f * f * row.average() / (1.0 - f * (1.0 - row.average())))
-}
-
-/// The scale of the rows of facets of a width.
-fn row_scale(width: Real) -> f64 {
-    width.to_f64() + 0.3
-}
-
-/// The directional albedo of one bounce of facets, over visible normals.
-fn albedo(facets: Microfacets, mu: f64, fresnel: impl Fn(Real) -> Real) -> f64 {
-    let mu = Real::from_f64(mu);
-    let o = Vec3::new((1.0 - mu * mu).max(0.0).sqrt(), 0.0, mu);
-    // The azimuths are alike on both sides.
-    2.0 * integral([0.0, 0.5], 4, |turns| {
-        integral([0.0, 1.0], 4, |v| {
-            let h = facets.sample(o, [Real::from_f64(turns), Real::from_f64(v)]);
-            let cos = o.dot(h);
-            let i = h * (2.0 * cos) - o;
-            if i.z <= 0.0 {
-                return 0.0;
-            }
-            let kept = 4.0 * i.z * facets.shared_over_cosines(o, i) / facets.seen_over_cos(o);
-            (fresnel(cos) * kept).to_f64()
-        })
-    })
 }
 
 /// How much a facet reflects.

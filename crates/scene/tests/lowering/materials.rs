@@ -97,6 +97,31 @@ fn a_chain_of_blends_may_be_long_but_not_without_end() {
     assert!(codes.len() == 1 && codes[0].ends_with("E0312"), "{codes:?}");
 }
 
+/// A blend of a blend with itself doubles what it is made of, and any ray that looks through it asks all of that.
+#[test]
+fn doubled_blends_are_limited_where_they_may_be_unseen() {
+    let medium = "<medium><name>ice</name><basic><ior>1.3</ior></basic></medium>";
+    let doubled = |n: usize, of: &str| {
+        let link = |i: usize| material(&format!("m{}", i + 1), &blend(&format!("m{i}"), &format!("m{i}")));
+        of.to_owned() + &(0..n).map(link).collect::<String>() + &sphere_of(&format!("m{n}"))
+    };
+    let frosted = medium.to_owned()
+        + &material(
+            "m0",
+            "<glossy_transparent><internal_medium_name>ice</internal_medium_name><exponent>9</exponent></glossy_transparent>",
+        );
+    assert_eq!(found(&format!("{}\n{CAMERA}", doubled(10, &frosted))), Vec::<String>::new());
+    expect_one(&doubled(11, &frosted), "m10</b_name>", "E0207");
+    // In time, too.
+    expect_one(&doubled(150, &frosted), "m10</b_name>", "E0207");
+    // What is opaque is asked nothing.
+    let matt = material(
+        "m0",
+        "<diffuse><albedo_spectrum><uniform><value>0.5</value></uniform></albedo_spectrum></diffuse>",
+    );
+    assert_eq!(found(&format!("{}\n{CAMERA}", doubled(150, &matt))), Vec::<String>::new());
+}
+
 #[test]
 fn metals_need_their_file() {
     let metal = |path: &str, more: &str| {

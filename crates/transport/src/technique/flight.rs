@@ -107,7 +107,7 @@ impl Flight {
                     let u = numbers.block(blocks.scatter(*number));
                     match shade(world, at, wo, &self.media, u[3]) {
                         Surface::Scatters(vertex) => return Some((vertex, u)),
-                        Surface::Unseen(media) => self.pass(world, at, media),
+                        Surface::Unseen(media) => self.pass(at, media),
                     }
                     *number += 1;
                 }
@@ -153,8 +153,8 @@ impl Flight {
 
     /// Goes on beyond the surface that it came to, with other media round it.
     #[inline]
-    fn pass(&mut self, world: &World, at: &SurfacePoint, media: MediumStack) {
-        self.ray = self.ray.beyond(self.passed, at.p_error.length().max(world.scene.nudge_m));
+    fn pass(&mut self, at: &SurfacePoint, media: MediumStack) {
+        self.ray = self.ray.beyond(self.passed, at.p_error.length());
         self.media = media;
     }
 }

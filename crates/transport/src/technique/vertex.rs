@@ -22,6 +22,7 @@ pub(super) struct Vertex {
 }
 
 #[derive(Clone, Copy, Debug)]
+#[expect(clippy::large_enum_variant, reason = "a path uses no heap")]
 enum Model {
     Surface(ShadingPoint),
     Medium { wo: Vec3, phase: Lobe, scattering: LanePdf },

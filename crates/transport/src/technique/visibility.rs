@@ -103,7 +103,7 @@ fn walk(world: &World, mut ray: Ray, length: Real, mut media: MediumStack) -> Op
         sum = sum.then(world.passage(&media, (hit.t - passed) * length));
         sum.transmittance *= share;
         (passed, media) = (hit.t, beyond);
-        ray = ray.beyond(hit.t, at.p_error.length().max(scene.nudge_m));
+        ray = ray.beyond(hit.t, at.p_error.length());
     }
     Some(sum.then(world.passage(&media, (ray.t_max - passed) * length)))
 }
