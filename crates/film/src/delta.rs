@@ -121,6 +121,11 @@ impl FilmDelta {
         totals.b_count += count as f64;
     }
 
+    /// Counts contributions that were refused before they got here.
+    pub fn refuse(&mut self, n: u64) {
+        self.refused += n;
+    }
+
     /// Contributions refused at the door: not finite, or beyond 1e30. Each is a bug elsewhere that
     /// must not poison the film; it leaves no trace in sums or counts but this one.
     pub fn refused(&self) -> u64 {

@@ -4,9 +4,13 @@ use crate::kinds::{Distant, DistantLight};
 use crate::portals::Portals;
 use crate::query::{EmissionPdf, Receiver};
 use indigo_math::distribution::AliasTable;
+use indigo_math::sobol::radical_inverse_2;
 use indigo_math::warp::{INV_PI, concentric_disk};
 use indigo_math::{Float, Frame, Real, Vec3, Vec3d};
-use indigo_spectrum::{SampledSpectrum, SampledWavelengths};
+use indigo_spectrum::{LightSpectrum, SampledSpectrum, SampledWavelengths};
+
+/// Directions whose light tells the spectrum of a light.
+const DIRECTIONS: u32 = 64;
 
 /// The surroundings of a scene.
 ///
@@ -94,6 +98,26 @@ impl Environment {
     #[inline]
     pub fn radiance(&self, towards: Vec3, lambda: &SampledWavelengths) -> SampledSpectrum {
         self.lights.iter().fold(SampledSpectrum::ZERO, |sum, light| sum + light.radiance(towards, lambda))
+    }
+
+    /// Adds the lights' spectra, each a mean over directions, with a share of all light for them together.
+    pub fn add_spectra(&self, share: f64, spectrum: &mut LightSpectrum) {
+        let sum: f64 = self.lights.iter().map(Distant::total_luminance).sum();
+        for light in &self.lights {
+            let directions: Vec<(Vec3, Real)> = (0..DIRECTIONS)
+                .filter_map(|i| {
+                    let at = [(i as Real + 0.5) / DIRECTIONS as Real, radical_inverse_2(i) as Real];
+                    let towards = light.sample(Vec3::ZERO, at)?;
+                    let pdf = light.pdf(Vec3::ZERO, towards);
+                    (pdf > 0.0).then_some((towards, pdf))
+                })
+                .collect();
+            spectrum.add(share * light.total_luminance() / sum, |lambda| {
+                directions
+                    .iter()
+                    .fold(SampledSpectrum::ZERO, |sum, &(d, pdf)| sum + light.radiance(d, lambda) / pdf)
+            });
+        }
     }
 
     /// The part of a light's draws that is left to the portals.

@@ -10,8 +10,8 @@ use crate::kinds::DistantLight;
 use crate::portals::Portals;
 use crate::query::{Emission, EmissionPdf, EmitterHit, LightSample, Receiver};
 use indigo_math::distribution::{AliasTable, refined};
-use indigo_math::{Real, Vec3, Vec3d};
-use indigo_spectrum::{SampledSpectrum, SampledWavelengths};
+use indigo_math::{Float, Real, Vec3, Vec3d};
+use indigo_spectrum::{LightSpectrum, SampledSpectrum, SampledWavelengths};
 
 /// Lamps and the environment, with a distribution to choose among them by power.
 #[derive(Clone, Debug)]
@@ -28,6 +28,17 @@ pub struct LightTable {
 }
 
 const NO_LAMP: u32 = u32::MAX;
+
+/// Lamps whose spectra are looked at; those of more are most often the same.
+const SPECTRA: usize = 256;
+
+/// The most probable choices of a table, the most probable first.
+fn strongest(table: &AliasTable) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..table.len()).collect();
+    order.sort_by(|&a, &b| table.probability(b).total_cmp(&table.probability(a)));
+    order.truncate(SPECTRA);
+    order
+}
 
 /// What was chosen, with a fresh number in [0, 1).
 enum Chosen {
@@ -79,6 +90,19 @@ impl LightTable {
     /// Whether there is no light.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
+    }
+
+    /// What the light is made of: half of it the lamps', by their flux, and half the environment's.
+    pub fn spectrum(&self) -> LightSpectrum {
+        let mut spectrum = LightSpectrum::default();
+        for i in strongest(&self.by_power) {
+            let share = self.lamp_chance(self.share_of_emission, i).to_f64();
+            spectrum.add(share, |lambda| self.lamps[i].radiance().eval(lambda));
+        }
+        if let Some(environment) = self.environment.as_ref().filter(|e| e.shines()) {
+            environment.add_spectra(self.share_of_emission, &mut spectrum);
+        }
+        spectrum
     }
 
     /// The portals through which distant light comes in.

@@ -111,6 +111,12 @@ const fn mix32(mut x: u32) -> u32 {
     x ^ (x >> 16)
 }
 
+/// The first coordinate of the unscrambled sequence: the bits of a number behind the point, the last one first (van der
+/// Corput 1935).
+pub fn radical_inverse_2(i: u32) -> f64 {
+    f64::from(i.reverse_bits()) / 4_294_967_296.0
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -217,7 +217,7 @@ impl Session {
     fn test_conditions(&mut self) {
         if self.halt.time.is_some_and(|t| self.elapsed() >= t) && self.reason.is_none() {
             self.reason = Some(HaltReason::Time);
-            self.shared.gate.stop();
+            self.shared.stop();
         }
         if self.last_epoch.elapsed() >= self.epoch {
             self.last_epoch = Instant::now();
@@ -227,7 +227,7 @@ impl Session {
                 && self.reason.is_none()
             {
                 self.reason = Some(HaltReason::Error);
-                self.shared.gate.stop();
+                self.shared.stop();
             }
         }
     }
@@ -250,7 +250,7 @@ impl Session {
     /// Asks the workers to end; [`wait`](Self::wait) tells when they have.
     pub fn stop(&mut self) {
         self.reason.get_or_insert(HaltReason::Stopped);
-        self.shared.gate.stop();
+        self.shared.stop();
     }
 
     /// Lets the workers rest; the clock stops too.
@@ -349,7 +349,7 @@ fn unit_limit(driver: &Driver, halt: &Halt, first: u64, samples_before: u64) -> 
 
 impl Drop for Session {
     fn drop(&mut self) {
-        self.shared.gate.stop();
+        self.shared.stop();
         for worker in self.workers.drain(..) {
             // Nobody is left to hear of a failure.
             drop(worker.join());

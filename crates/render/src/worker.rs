@@ -32,6 +32,12 @@ pub(crate) struct Shared {
 }
 
 impl Shared {
+    /// Ends the workers.
+    pub fn stop(&self) {
+        self.gate.stop();
+        self.driver.cancel();
+    }
+
     /// The film that a unit's samples go to.
     fn film_of(&self, unit: u64) -> usize {
         if self.films.len() == 1 { 0 } else { 1 + self.driver.half_of(unit) }
@@ -140,7 +146,7 @@ fn render_unit(shared: &Shared, unit: u64, tracer: &mut Tracer, delta: &mut Film
                 shared.seed, shared.seed
             );
             *shared.failure.lock().unwrap_or_else(PoisonError::into_inner) = Some(message);
-            shared.gate.stop();
+            shared.stop();
             None
         }
     }

@@ -7,7 +7,7 @@ use indigo_imaging::{PictureSettings, png};
 use indigo_light::LightTable;
 use indigo_math::Real;
 use indigo_scatter::{Interface, Material, MaterialContext, Medium, MediumStack};
-use indigo_spectrum::SampledWavelengths;
+use indigo_spectrum::{SampledWavelengths, WavelengthSampler};
 use indigo_texture::Texture;
 
 /// Everything that rendering needs, in render space: the world moved so that the camera is its origin.
@@ -16,6 +16,8 @@ pub struct Scene {
     pub accel: Accel,
     /// All lights.
     pub lights: LightTable,
+    /// Draws the wavelengths of paths.
+    pub wavelengths: Box<WavelengthSampler>,
     /// The camera.
     pub camera: Camera,
     /// All textures.

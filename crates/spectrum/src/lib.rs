@@ -40,4 +40,4 @@ pub use error::SpectrumError;
 pub use kinds::Spectrum;
 pub use lanes::{LANES, LanePdf, SampledSpectrum};
 pub use rgb::{Reflectance, RgbTable};
-pub use wavelengths::SampledWavelengths;
+pub use wavelengths::{LightSpectrum, SampledWavelengths, WavelengthSampler};

@@ -35,6 +35,7 @@ impl FirstHits {
             let [lens_x, lens_y, ..] = numbers.block(Block::LENS);
             let position =
                 Vec2::new((x as Real + u) / size.width() as Real, (y as Real + v) / size.height() as Real);
+            // Albedos are of daylight, whatever light the scene has.
             let lambda = SampledWavelengths::sample(wavelength);
             let camera = scene.camera.ray(position, Vec2::new(lens_x, lens_y));
             let (sensor, light) = (Sensor::new(&lambda), illuminant::d65(&lambda));

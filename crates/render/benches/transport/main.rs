@@ -94,7 +94,7 @@ fn main() {
 /// All modes on a scene, in turns.
 fn race(bench: &BenchScene, modes: &[&Mode], arguments: &Arguments) {
     let reference = Reference::of(bench, arguments.reference);
-    let scenes: Vec<Scene> = modes.iter().map(|mode| mode.of(bench)).collect();
+    let scenes: Vec<Scene> = modes.iter().map(|mode| mode.of(bench.load())).collect();
     let mut runs: Vec<Run> = scenes.iter().map(|scene| Run::new(scene, 1)).collect();
     let turns = (arguments.seconds / TURN).ceil() as usize;
     for turn in 0..turns {

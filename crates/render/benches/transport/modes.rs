@@ -1,6 +1,5 @@
 //! Techniques under drivers.
 
-use super::scenes::BenchScene;
 use indigo_scene::{MetropolisSettings, Scene};
 
 /// A technique under a driver.
@@ -25,14 +24,8 @@ const fn mode(name: &'static str, [bidirectional, metropolis, hybrid]: [bool; 3]
 }
 
 impl Mode {
-    /// The mode of a name.
-    pub fn named(name: &str) -> &'static Self {
-        MODES.iter().find(|m| m.name == name).unwrap_or_else(|| panic!("no mode {name}"))
-    }
-
-    /// A scene that renders in this mode. A scene keeps its own settings of Metropolis sampling, if it has any.
-    pub fn of(&self, bench: &BenchScene) -> Scene {
-        let mut scene = bench.load();
+    /// The scene, to be rendered in this mode. It keeps its own settings of Metropolis sampling, if it has any.
+    pub fn of(&self, mut scene: Scene) -> Scene {
         let transport = &mut scene.transport;
         transport.bidirectional = self.bidirectional;
         transport.hybrid = self.hybrid;

@@ -1,7 +1,7 @@
 //! Long renders to compare with, made once.
 
 use super::measure::{Run, rel_mse};
-use super::modes::Mode;
+use super::modes::MODES;
 use super::scenes::BenchScene;
 use std::fs;
 use std::path::PathBuf;
@@ -25,7 +25,8 @@ impl Reference {
             return Self::from_halves(a, b);
         }
         println!("{}: a reference of {seconds} s by {}", bench.name, bench.reference);
-        let scene = Mode::named(bench.reference).of(bench);
+        let mode = MODES.iter().find(|m| m.name == bench.reference).expect("a mode of the list");
+        let scene = mode.of(bench.load());
         let halves = [101, 102].map(|seed| {
             let mut run = Run::new(&scene, seed);
             while run.seconds < 0.5 * seconds {

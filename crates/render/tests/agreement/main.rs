@@ -128,6 +128,8 @@ grid! {
         glass_ball_with_caustic,
         scattering_glass,
         dispersive_prism,
+        bump_mapped_walls,
+        light_behind_frosted_glass,
     ]
     with_grid: [
         diffuse_box,
@@ -149,5 +151,7 @@ grid! {
         camera_inside_a_medium,
         lamp_inside_a_medium,
         nested_glass_and_liquid,
+        glossy_exchange,
+        blended_surfaces,
     ]
 }

@@ -1,14 +1,16 @@
 //! Scenes for the grid: small, each with something that one mode could get wrong.
 
 mod lights;
+mod materials;
 mod media;
 
 pub use lights::*;
+pub use materials::*;
 pub use media::*;
 
 use super::SIDE;
 use super::common::scene;
-use super::common::shapes::{Mesh, add, mesh_light, model};
+use super::common::shapes::{Mesh, add, cross, mesh_light, model};
 use super::common::text::{
     background, camera, diffuse, flat_camera, grey, null, scene_file, settings, uniform,
 };
@@ -20,7 +22,7 @@ const SPECTRUM_D65: &str = "<blackbody><temperature>6500</temperature><gain>1e-9
 fn wall(towards: [f64; 3], d: f64, half: f64) -> Mesh {
     let n = towards;
     let u = if n[0].abs() > 0.5 { [0.0, 1.0, 0.0] } else { [1.0, 0.0, 0.0] };
-    let v = super::common::shapes::cross(n, u);
+    let v = cross(n, u);
     let at = n.map(|x| -x * d);
     let corner = |a: f64, b: f64| add(at, add(u.map(|x| x * a * half), v.map(|x| x * b * half)));
     Mesh::polygon(vec![corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)])

@@ -28,6 +28,7 @@ use indigo_diag::{Diagnostic, Severity, Sink, SourceMap, Span};
 use indigo_geom::{Accel, BuildOptions, SurfacePoint};
 use indigo_math::Vec3d;
 use indigo_scatter::{Material, MediumStack};
+use indigo_spectrum::WavelengthSampler;
 use materials::MaterialTable;
 use meshes::MeshTable;
 
@@ -182,6 +183,7 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
     let mut scene = Scene {
         has_unseen_surfaces: slots.iter().any(|&m| materials[m as usize].may_be_unseen()),
         accel,
+        wavelengths: Box::new(WavelengthSampler::of_light(&lights.spectrum())),
         lights,
         camera,
         textures,

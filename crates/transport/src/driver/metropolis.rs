@@ -1,30 +1,31 @@
 //! Metropolis sampling in primary sample space (Kelemen et al. 2002).
 //!
 //! A number of Markov chains run side by side. A unit of work is a run of mutations of one chain; it
-//! depends on the seed and on the chain's units before it, so any number of threads makes the same
-//! picture. Each chain starts from one of its own independent seeds, drawn in proportion to their
-//! targets (Veach 1997, section 11.3.1).
+//! depends on the seed, on the [seeds](super::seeds) of all chains and on the chain's units before it, so any number of
+//! threads makes the same picture.
 //!
 //! Proposal and state are both splatted, with their chances to be the next state (Kelemen et al. 2002,
 //! equation 12). The film's layer holds f / target; seeds and large mutations are independent samples
 //! whose targets estimate the brightness constant b, which the layer keeps beside its sums and applies
 //! when it is developed. A picture of few mutations is unbiased only in the limit of many seeds, as b is a
-//! mean over all of them and the start is drawn from some: that error falls with the number of
-//! chains times seeds.
+//! mean over all of them and the starts are drawn among them.
+//!
+//! Where no seed found any light a chain looks on, by large mutations alone, and counts from the first that finds
+//! some: what it has looked at before counts in b, and would count twice as mutations that show nothing.
 
 use super::chain::{ChainSample, Mutation};
 use super::region::Region;
+use super::seeds::{self, Seeds};
 use crate::sampler::{Block, PrimarySample};
 use crate::technique::{Events, Tracer};
 use indigo_film::{FilmDelta, FilmFilter};
+use indigo_math::sobol::radical_inverse_2;
 use indigo_math::{Vec2, rng};
 use indigo_scene::{MetropolisSettings, Scene};
 use std::sync::{Mutex, PoisonError};
 
 /// Chains; more than any machine has threads, so that they need not wait for each other.
 pub(super) const CHAINS: u64 = 128;
-/// Independent samples from which a chain's start is drawn.
-const SEEDS: u64 = 1024;
 /// Mutations of a unit.
 pub(super) const MUTATIONS: u64 = 2048;
 
@@ -41,6 +42,7 @@ pub struct Metropolis {
     settings: MetropolisSettings,
     /// The film's layers for direct and for indirect light, which may be the same.
     layers: [usize; 2],
+    seeds: Seeds,
     chains: Vec<Mutex<Chain>>,
 }
 
@@ -66,6 +68,8 @@ struct State {
     target: f64,
     /// How much it has counted so far.
     weight: f64,
+    /// What was no colour.
+    refused: u64,
 }
 
 impl Metropolis {
@@ -78,8 +82,10 @@ impl Metropolis {
         settings: MetropolisSettings,
         layers: [usize; 2],
     ) -> Self {
+        let region = Region::of(scene);
         Self {
-            region: Region::of(scene).grown(scene),
+            seeds: Seeds::new(CHAINS, region.pixels()),
+            region: region.grown(scene),
             filter: scene.film.filter.clone(),
             seed,
             first,
@@ -88,6 +94,11 @@ impl Metropolis {
             layers,
             chains: (0..CHAINS).map(|_| Mutex::default()).collect(),
         }
+    }
+
+    /// Makes the two halves independent of each other.
+    pub(super) fn halve(&mut self) {
+        self.seeds.pools = 2;
     }
 
     /// Which half a unit belongs to: that of its chain.
@@ -105,9 +116,11 @@ impl Metropolis {
     ) -> u64 {
         let begun = unit - self.first;
         let (number, turn) = (begun % CHAINS, begun / CHAINS);
-        let key = rng::key(&[self.seed, number, self.first]);
-        let mut run = Run { driver: self, scene, tracer, delta, key };
-        loop {
+        let mut run = Run { driver: self, scene, tracer, delta, key: self.key(number) };
+        if turn == 0 && !run.find_seeds() {
+            return 0;
+        }
+        while !self.seeds.is_cancelled() {
             let mut chain = self.chains[number as usize].lock().unwrap_or_else(PoisonError::into_inner);
             if chain.units < turn {
                 // Another thread has been slow with this chain's unit before.
@@ -116,18 +129,30 @@ impl Metropolis {
                 continue;
             }
             if turn == 0 {
-                run.start(&mut chain);
+                run.start(&mut chain, number);
             }
-            let first = SEEDS + turn * MUTATIONS;
+            // Numbers that no seed has had.
+            let first = self.seeds.per_block + turn * MUTATIONS;
             for step in first..first + MUTATIONS {
                 run.mutate(&mut chain, step);
                 // Counted one by one, so that what a unit that fails leaves behind is counted rightly.
-                run.count(1);
+                run.count(u64::from(chain.is_started));
             }
             run.settle(&mut chain.current);
             chain.units += 1;
             return MUTATIONS;
         }
+        0
+    }
+
+    /// Ends units that wait, at the start or for another thread: nothing more is wanted of the driver.
+    pub(super) fn cancel(&self) {
+        self.seeds.cancel();
+    }
+
+    /// Names all randomness of a chain, and of the seeds of the same number.
+    fn key(&self, number: u64) -> u64 {
+        rng::key(&[self.seed, number, self.first])
     }
 }
 
@@ -164,8 +189,8 @@ impl Run<'_> {
         self.each_layer(|delta, layer| delta.add_brightness(layer, sum, count));
     }
 
-    /// Traces a proposal.
-    fn trace(&mut self, chain: &mut Chain, step: u64, is_large: bool) {
+    /// Traces a proposal, and says how many contributions were refused since they are no colours.
+    fn trace(&mut self, chain: &mut Chain, step: u64, is_large: bool) -> u64 {
         let mut numbers = chain.sample.propose(self.mutation(), step, is_large);
         let [u0, u1, ..] = numbers.block(Block::FILM);
         let region = &self.driver.region;
@@ -173,7 +198,7 @@ impl Run<'_> {
         let found = self.tracer.trace(self.scene, &mut numbers, position, self.driver.events, &mut ());
         let state = &mut chain.proposal;
         state.splats.clear();
-        (state.target, state.weight) = (0.0, 0.0);
+        (state.target, state.weight, state.refused) = (0.0, 0.0, 0);
         // Film positions are uniform over the region, not over the film.
         let film = region.in_pixels(position);
         let mut add =
@@ -188,30 +213,56 @@ impl Run<'_> {
             let xyz = found.sensor.xyz(&splat.radiance);
             state.add(region.in_pixels(splat.position), xyz, splat.is_indirect);
         }
+        state.refused
     }
 
-    /// Draws the chain's start among independent seeds.
-    fn start(&mut self, chain: &mut Chain) {
-        let mut sum = 0.0;
-        for step in 0..SEEDS {
-            self.trace(chain, step, true);
-            let target = chain.proposal.target;
-            sum += target;
-            // Each seed takes the place of those before it with its share of their sum.
-            let u = rng::Rng::new(rng::key(&[self.key, step, 1])).next_f64();
-            if target > 0.0 && u * sum < target {
-                chain.accept();
-                chain.is_started = true;
+    /// Traces the seeds that are missing, beside all other threads.
+    fn find_seeds(&mut self) -> bool {
+        let driver = self.driver;
+        let own_key = self.key;
+        let mut scratch = Chain::default();
+        let is_complete = driver.seeds.complete(|number| {
+            self.key = driver.key(number as u64);
+            let mut block = seeds::Block { targets: vec![], refused: 0 };
+            for step in 0..driver.seeds.per_block {
+                block.refused += self.trace(&mut scratch, step, true);
+                block.targets.push(scratch.proposal.target);
+            }
+            block
+        });
+        self.key = own_key;
+        is_complete
+    }
+
+    /// Draws the chain's start among the seeds of its pool.
+    fn start(&mut self, chain: &mut Chain, number: u64) {
+        let driver = self.driver;
+        let (pools, pool) = (driver.seeds.pools, number as usize % driver.seeds.pools);
+        if number < pools as u64 {
+            for block in driver.seeds.pool(pool) {
+                self.add_brightness(block.sum(), driver.seeds.per_block);
+                self.delta.refuse(block.refused);
             }
         }
-        self.add_brightness(sum, SEEDS);
+        // One random number for all chains of a pool and a place of its own for each: each start is drawn as if it were
+        // the only one, and any few of them are spread evenly (systematic sampling, in the order of van der Corput).
+        let shift = rng::Rng::new(rng::key(&[driver.seed, driver.first, pool as u64, 1])).next_f64();
+        let place = radical_inverse_2(number as u32 / pools as u32);
+        if let Some((block, step)) = driver.seeds.draw(pool, (shift + place).fract()) {
+            let own_key = std::mem::replace(&mut self.key, driver.key(block as u64));
+            self.trace(chain, step, true);
+            self.key = own_key;
+            chain.accept();
+            chain.is_started = true;
+        }
     }
 
     fn mutate(&mut self, chain: &mut Chain, step: u64) {
         let settings = &self.driver.settings;
         let mut rng = rng::Rng::new(rng::key(&[self.key, step, 2]));
         let is_large = !chain.is_started || rng.next_f64() < settings.large_mutation_prob;
-        self.trace(chain, step, is_large);
+        let refused = self.trace(chain, step, is_large);
+        self.delta.refuse(refused);
         let (proposed, current) = (chain.proposal.target, chain.current.target);
         if is_large {
             self.add_brightness(proposed, 1);
@@ -261,7 +312,9 @@ impl Chain {
 impl State {
     fn add(&mut self, position: Vec2, xyz: [f32; 3], is_indirect: bool) {
         let sum: f64 = xyz.iter().map(|c| f64::from(*c)).sum();
-        if sum.is_finite() && sum > 0.0 {
+        if !(sum.is_finite() && sum >= 0.0) {
+            self.refused += 1;
+        } else if sum > 0.0 {
             self.target += sum / 3.0;
             self.splats.push((position, xyz, is_indirect));
         }

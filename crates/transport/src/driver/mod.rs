@@ -4,6 +4,7 @@ mod chain;
 mod independent;
 mod metropolis;
 mod region;
+mod seeds;
 
 use crate::technique::{DIRECT, Events, Tracer};
 use independent::Independent;
@@ -117,8 +118,12 @@ impl Driver {
     /// in each half then, not across them.
     pub fn in_halves(mut self) -> Self {
         match &mut self.parts {
-            Parts::Independent(driver) | Parts::Hybrid(driver, _) => driver.is_halved = true,
-            Parts::Metropolis(_) => {}
+            Parts::Independent(driver) => driver.is_halved = true,
+            Parts::Metropolis(driver) => driver.halve(),
+            Parts::Hybrid(direct, indirect) => {
+                direct.is_halved = true;
+                indirect.halve();
+            }
         }
         self
     }
@@ -180,6 +185,15 @@ impl Driver {
             }
         };
         u64::try_from(units).unwrap_or(u64::MAX)
+    }
+
+    /// Ends units that wait for other threads, as nothing more is wanted: those return without samples, and so do all
+    /// later ones of chains.
+    pub fn cancel(&self) {
+        match &self.parts {
+            Parts::Independent(_) => {}
+            Parts::Metropolis(driver) | Parts::Hybrid(_, driver) => driver.cancel(),
+        }
     }
 
     /// Does a unit: adds its samples to `delta`, a film of [`layers`](Self::layers), and says how many

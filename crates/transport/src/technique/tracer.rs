@@ -7,7 +7,6 @@ use crate::sampler::{Block, PrimarySample};
 use indigo_film::Sensor;
 use indigo_math::{Real, Vec2};
 use indigo_scene::Scene;
-use indigo_spectrum::SampledWavelengths;
 
 /// A technique with the memory that it needs.
 #[derive(Clone, Debug)]
@@ -49,7 +48,7 @@ impl Tracer {
         record: &mut impl Record,
     ) -> Found {
         let [.., wavelength, _] = numbers.block(Block::FILM);
-        let lambda = SampledWavelengths::sample(wavelength);
+        let lambda = scene.wavelengths.sample(wavelength);
         let [x, y, ..] = numbers.block(Block::LENS);
         let [d0, d1, ..] = numbers.block(Block::DIFFRACTION);
         let camera = scene.camera.sample(position, Vec2::new(x, y), Vec2::new(d0, d1), &lambda);
