@@ -59,8 +59,11 @@ struct Chain {
     is_started: bool,
 }
 
+/// Splats that a state has room for from the beginning: those of nearly all light paths, so that lists hardly ever grow.
+const ROOM: usize = 256;
+
 /// What a primary sample puts on the film.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 struct State {
     /// Position in internal pixels, colour in cd/m², and whether the light is indirect.
     splats: Vec<(Vec2, [f32; 3], bool)>,
@@ -70,6 +73,12 @@ struct State {
     weight: f64,
     /// What was no colour.
     refused: u64,
+}
+
+impl Default for State {
+    fn default() -> Self {
+        Self { splats: Vec::with_capacity(ROOM), target: 0.0, weight: 0.0, refused: 0 }
+    }
 }
 
 impl Metropolis {
