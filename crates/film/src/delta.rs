@@ -110,6 +110,11 @@ impl FilmDelta {
         layer.totals.n_samples += n as f64;
     }
 
+    /// Counts `n` draws of a chain that has found no light yet.
+    pub fn add_idle(&mut self, layer: usize, n: u64) {
+        self.layers[layer].totals.n_idle += n as f64;
+    }
+
     /// Adds `count` estimates of the Metropolis brightness constant whose sum is `sum` (cd/m²).
     pub fn add_brightness(&mut self, layer: usize, sum: f64, count: u64) {
         if !sum.is_finite() {

@@ -21,6 +21,9 @@ pub struct Totals {
     /// Camera samples of a per-pixel layer (counted by the film itself), or draws of a
     /// per-screen layer.
     pub n_samples: f64,
+    /// Draws of a Markov chain that had found no light yet: they show nothing, not even darkness, and its sums are not
+    /// divided by them.
+    pub n_idle: f64,
     /// Sum of the estimates of the Metropolis brightness constant (cd/m²).
     pub b_sum: f64,
     /// Number of the estimates of the Metropolis brightness constant; 0 in any other layer.
@@ -31,6 +34,7 @@ impl Totals {
     /// Adds what another film of the same layer counted.
     pub(crate) fn add(&mut self, other: &Self) {
         self.n_samples += other.n_samples;
+        self.n_idle += other.n_idle;
         self.b_sum += other.b_sum;
         self.b_count += other.b_count;
     }
@@ -49,7 +53,7 @@ impl Totals {
         let (mut shared, mut chains) = (0.0_f64, 0.0_f64);
         for totals in layers {
             if totals.is_chain() {
-                chains = chains.max(totals.n_samples);
+                chains = chains.max(totals.n_samples + totals.n_idle);
             } else {
                 shared = shared.max(totals.n_samples);
             }

@@ -20,6 +20,7 @@ fn saved(seed: u64) -> SavedFilm {
         layer.totals.n_samples = 247.0 * 64.0;
     }
     (film.layers[1].totals.b_sum, film.layers[1].totals.b_count) = (123.456, 78.0);
+    film.layers[1].totals.n_idle = 9.0;
     film.refused = 3;
     let record = FilmRecord {
         program: "Indigo".into(),
@@ -163,6 +164,7 @@ fn independent_films_add_up_and_the_same_samples_are_refused() {
     for (layer, sum) in a.film.layers.iter().enumerate() {
         let (x, y) = (&before.film.layers[layer], &b.film.layers[layer]);
         assert_eq!(sum.totals.b_count, x.totals.b_count + y.totals.b_count);
+        assert_eq!(sum.totals.n_idle, x.totals.n_idle + y.totals.n_idle);
         assert!(sum.sums.iter().zip(x.sums.iter().zip(&y.sums)).all(|(s, (x, y))| s[1] == x[1] + y[1]));
     }
     let record = a.record.as_ref().unwrap();

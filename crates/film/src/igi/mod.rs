@@ -40,7 +40,7 @@ const IMAGE: usize = PADDING + 5000;
 /// Says that a film section follows the image.
 const MARK: [u8; 8] = *b"IndiFilm";
 /// To be raised with every change of the film section that older readers would misread.
-const SECTION_VERSION: u32 = 1;
+const SECTION_VERSION: u32 = 2;
 /// Bytes of the hash at the end.
 const HASH: usize = 32;
 /// The most layers of a film: four times as many as any mode of rendering has.
@@ -62,7 +62,7 @@ pub enum IgiError {
     #[error("version {0} of Indigo images is not known; 1, 7 and 8 are")]
     Version(u32),
     /// A film section of a later program.
-    #[error("the film was written by a later version of the program (section version {0})")]
+    #[error("the film was written by another version of the program (section version {0})")]
     Section(u32),
     /// A value that cannot be.
     #[error("the file is damaged: {0}")]

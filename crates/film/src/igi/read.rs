@@ -101,8 +101,10 @@ fn read_layer(bytes: &mut Bytes<'_>, size: FilmSize) -> Result<Layer, IgiError> 
         _ => return Err(IgiError::Malformed("a layer is of no known kind")),
     };
     let name = bytes.text(WHAT)?;
-    let totals = Totals { n_samples: bytes.f64(WHAT)?, b_sum: bytes.f64(WHAT)?, b_count: bytes.f64(WHAT)? };
-    if ![totals.n_samples, totals.b_sum, totals.b_count].iter().all(|v| v.is_finite() && *v >= 0.0) {
+    let [n_samples, n_idle, b_sum, b_count] =
+        [bytes.f64(WHAT)?, bytes.f64(WHAT)?, bytes.f64(WHAT)?, bytes.f64(WHAT)?];
+    let totals = Totals { n_samples, n_idle, b_sum, b_count };
+    if ![n_samples, n_idle, b_sum, b_count].iter().all(|v| v.is_finite() && *v >= 0.0) {
         return Err(IgiError::Malformed("a number of samples is negative or not finite"));
     }
     let pixels = size.internal_pixels();

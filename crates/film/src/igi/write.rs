@@ -81,7 +81,7 @@ fn write_layer(out: &mut impl Write, layer: &Layer) -> io::Result<()> {
     out.write_all(&kind.to_le_bytes())?;
     write_text(out, &layer.name)?;
     let totals = &layer.totals;
-    for v in [totals.n_samples, totals.b_sum, totals.b_count] {
+    for v in [totals.n_samples, totals.n_idle, totals.b_sum, totals.b_count] {
         out.write_all(&v.to_le_bytes())?;
     }
     blocks::write(out, layer.sums.as_flattened().iter().copied())?;

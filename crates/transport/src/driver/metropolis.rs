@@ -145,7 +145,7 @@ impl Metropolis {
             for step in first..first + MUTATIONS {
                 run.mutate(&mut chain, step);
                 // Counted one by one, so that what a unit that fails leaves behind is counted rightly.
-                run.count(u64::from(chain.is_started));
+                run.count(chain.is_started);
             }
             run.settle(&mut chain.current);
             chain.units += 1;
@@ -188,9 +188,11 @@ impl Run<'_> {
         }
     }
 
-    /// Counts mutations.
-    fn count(&mut self, n: u64) {
-        self.each_layer(|delta, layer| delta.add_samples(layer, n));
+    /// Counts a mutation, of a chain with a state or of one that has found no light yet.
+    fn count(&mut self, is_started: bool) {
+        self.each_layer(
+            |delta, layer| if is_started { delta.add_samples(layer, 1) } else { delta.add_idle(layer, 1) },
+        );
     }
 
     /// Estimates of the brightness constant, which is that of all light.
