@@ -10,18 +10,18 @@ pub struct Mode {
     hybrid: bool,
     /// Samples per pixel of a batch: about the same time for each.
     pub passes: u64,
-    /// Seed of the first batch.
+    /// Seed of the first batch; however many there are, no two modes share one.
     pub seed: u64,
 }
 
 /// All of them; the first is what the others are compared with.
 pub const MODES: &[Mode] = &[
-    mode("path", [false, false, false], 96, 1_000),
-    mode("bidirectional", [true, false, false], 48, 2_000),
-    mode("path, Metropolis", [false, true, false], 96, 3_000),
-    mode("bidirectional, Metropolis", [true, true, false], 48, 4_000),
-    mode("path, hybrid", [false, true, true], 96, 5_000),
-    mode("bidirectional, hybrid", [true, true, true], 48, 6_000),
+    mode("path", [false, false, false], 96, 1 << 32),
+    mode("bidirectional", [true, false, false], 48, 2 << 32),
+    mode("path, Metropolis", [false, true, false], 96, 3 << 32),
+    mode("bidirectional, Metropolis", [true, true, false], 48, 4 << 32),
+    mode("path, hybrid", [false, true, true], 96, 5 << 32),
+    mode("bidirectional, hybrid", [true, true, true], 48, 6 << 32),
 ];
 
 const fn mode(name: &'static str, [b, m, h]: [bool; 3], passes: u64, seed: u64) -> Mode {

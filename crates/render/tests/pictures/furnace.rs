@@ -4,7 +4,7 @@
 use super::common::judge::{NITS_PER_UNIFORM, assert_is};
 use super::common::shapes::{Mesh, mesh_light};
 use super::common::text::{background, flat_camera, grey, scene_file, settings, uniform};
-use super::common::{Measured, measure, scene};
+use super::common::{MODES, Measured, luminance_in_mode, measure, scene};
 use indigo_scene::Scene;
 
 /// Spectral radiance of the walls, W m^-3 sr^-1; far from 1 so that no unit cancels.
@@ -34,6 +34,17 @@ fn a_ball_of_albedo_one_half_is_twice_as_bright_as_its_walls_emit() {
 fn a_grey_ball_of_albedo_four_fifths_is_five_times_as_bright() {
     let measured = measure(&room(&Mesh::ball(2), 0.8, ""), 24, 768);
     assert_luminance("ball, albedo 0.8", &measured, 1.0 / (1.0 - 0.8));
+}
+
+/// Paths of a hundred events on average, and of ten times as many now and then, in every mode: nothing overflows, and
+/// none of the light is lost.
+#[test]
+fn a_highly_reflective_room_is_a_hundred_times_as_bright_in_every_mode() {
+    let mut scene = room(&Mesh::cube(1.0), 0.99, "<max_depth>10000</max_depth>");
+    for mode in MODES {
+        let measured = luminance_in_mode(&mut scene, mode, 6, 16);
+        assert_is(&mode.to_string(), &measured, EMITTED * NITS_PER_UNIFORM * 100.0, 3e-2);
+    }
 }
 
 #[test]
