@@ -75,6 +75,12 @@ fn openings_without_a_portal_are_found() {
     assert!(half[0].0 == "W0312" && half[0].1.contains("beside the exit portals"), "{half:?}");
     // One of them leaves from near the camera.
     assert!(half[0].1.contains("one of them from (10.000 0.000 0.000)"), "{half:?}");
+    // One that is too small leaves an opening round it, and one that was made too small covers it at twice its size.
+    let small = north.replace("<scale>1<", "<scale>0.5<").replace("10 0 0", "10 1 0");
+    assert_eq!(codes(&format!("{small}{south}"), SKY).len(), 1);
+    let half = quad("half", [[-1, 1, -1], [1, 1, -1], [1, 1, 1], [-1, 1, 1]]);
+    let grown = placed("exit_portal", "half").replace("<scale>1<", "<scale>2<");
+    assert_eq!(codes(&format!("{half}{grown}{south}"), SKY), []);
     // No portal, no complaint.
     assert_eq!(codes("", SKY), []);
 }

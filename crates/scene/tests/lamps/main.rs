@@ -22,7 +22,8 @@ impl Resolver for Memory {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../testscenes/ies/");
         let bytes = match path {
             "scene.igs" => self.0.clone().into_bytes(),
-            "half.bmp" => bmp(),
+            "half.bmp" => bmp([0, 255]),
+            "grey.bmp" => bmp([153; 2]),
             "beside.ies" => lambert("TILT=NONE", "TILT=lamp.tlt"),
             "left_over.ies" => lambert("TILT=NONE", "TILT=NONE\n1"),
             _ => std::fs::read(format!("{folder}{path}"))
@@ -39,8 +40,8 @@ fn lambert(from: &str, to: &str) -> Vec<u8> {
     file.replacen(from, to, 1).into_bytes()
 }
 
-/// Two texels side by side, black and white.
-fn bmp() -> Vec<u8> {
+/// Two grey texels side by side.
+fn bmp([left, right]: [u8; 2]) -> Vec<u8> {
     let mut bytes = b"BM".to_vec();
     for word in [62_u32, 0, 54, 40, 2, 1] {
         bytes.extend(word.to_le_bytes());
@@ -49,7 +50,7 @@ fn bmp() -> Vec<u8> {
     for word in [0_u32, 8, 0, 0, 0, 0] {
         bytes.extend(word.to_le_bytes());
     }
-    bytes.extend([0, 0, 0, 255, 255, 255, 0, 0]);
+    bytes.extend([left, left, left, right, right, right, 0, 0]);
     bytes
 }
 
@@ -59,13 +60,13 @@ fn text(more: &str) -> String {
 <tonemapping><linear><scale>1</scale></linear></tonemapping>
 <camera><pos>0 0 0</pos><up>0 0 1</up><forwards>0 1 0</forwards><aperture_radius>0.001</aperture_radius><focus_distance>3</focus_distance><aspect_ratio>1.3333</aspect_ratio><sensor_width>0.036</sensor_width><lens_sensor_dist>0.02</lens_sensor_dist></camera>
 <material><name>black</name><diffuse><albedo_spectrum><uniform><value>0</value></uniform></albedo_spectrum></diffuse></material>
-<mesh><name>square</name><embedded><expose_uv_set><name>default</name><index>0</index></expose_uv_set>";
+<mesh><name>square</name><embedded><expose_uv_set><name>default</name><index>0</index></expose_uv_set><expose_uv_set><name>bright</name><index>1</index></expose_uv_set>";
     let corners = [[-1, -1], [-1, 1], [1, 1], [1, -1]];
     let vertices = corners
         .iter()
         .map(|[x, y]| {
             format!(
-                "<vertex pos=\"{x} {y} 0\" uv0=\"{} {}\"/>",
+                "<vertex pos=\"{x} {y} 0\" uv0=\"{} {}\" uv1=\"0.5 0\"/>",
                 f64::from(x + 1) / 2.0,
                 f64::from(y + 1) / 2.0
             )
@@ -288,7 +289,7 @@ fn quadrant_bat(theta: f64, phi: f64) -> f64 {
     (along(j) * (1.0 - t) + along(j + 1) * t) * v[2] * v[10] * v[11]
 }
 
-/// The map's dark half does not shine, its bright half does, and its exponent and factors count.
+/// The map's dark half does not shine, its bright half does, and its exponent, its factors and its uv set count.
 #[test]
 fn a_texture_modulates_the_lamp() {
     let map = |more: &str| format!("<texture><path>half.bmp</path>{more}</texture>");
@@ -316,4 +317,14 @@ fn a_texture_modulates_the_lamp() {
     assert!((doubled / bright - 2.0).abs() < 0.03, "{doubled} {bright}");
     let [_, lifted] = sent(&map("<exponent>1</exponent><b>0</b><c>0.25</c>"));
     assert!((lifted / plain - 0.25).abs() < 0.01, "{lifted} {plain}");
+    let grey = |more: &str| sent(&format!("<texture><path>grey.bmp</path>{more}</texture>"))[1] / plain;
+    let part =
+        |more: &str, expected: f64| assert!((grey(more) - expected).abs() < 0.01, "{more}: {expected}");
+    part("", 0.6f64.powf(2.2));
+    part("<exponent>1</exponent>", 0.6);
+    part("<exponent>1</exponent><a>2</a><b>0.1</b>", 2.0 * 0.36 + 0.06);
+    // The second set lies on the bright texel altogether.
+    let [left, right] = sent(&map("<uv_set>bright</uv_set>"));
+    let whole = (left / plain, right / plain);
+    assert!((whole.0 - 1.0).abs() < 0.02 && (whole.1 - 1.0).abs() < 0.02, "{whole:?}");
 }
