@@ -2,7 +2,7 @@
 //! drawn by it.
 
 use crate::map_mean;
-use indigo_math::grid_distribution::GridDistribution;
+use indigo_math::grid_distribution::{GridDistribution, cell_means};
 use indigo_math::warp::uniform_triangle;
 use indigo_math::{Float, Real, Vec2};
 use indigo_spectrum::rgb::{Reflectance, RgbTable};
@@ -46,8 +46,11 @@ impl Modulation {
         let size = texture.size();
         for uv in uvs {
             let n = cells(uv, size).clamp(LEAST, MOST).min(most.max(1));
-            let value = |i: usize| mean_in_cell(i % n, i / n, n, |b| eye.luminance(texture.rgb(mix(uv, b))));
-            grids.push((n, (0..n * n).map(value).collect()));
+            let luminance = |at: [f64; 2]| {
+                let [x, y] = at.map(|v| v as Real);
+                eye.luminance(texture.rgb(mix(uv, uniform_triangle(Vec2::new(x, y)))))
+            };
+            grids.push((n, cell_means([n, n], POINTS, luminance)));
         }
         let at = |[x, y]: [f64; 2]| {
             let uv = Vec2::new((x / f64::from(size[0])) as Real, (y / f64::from(size[1])) as Real);
@@ -131,12 +134,6 @@ fn cells([a, b, c]: &[Vec2<f64>; 3], [width, height]: [u32; 2]) -> usize {
         (x * x + y * y).sqrt()
     };
     (texels(*a, *b).max(texels(*b, *c)).max(texels(*c, *a)) / TEXELS).ceil() as usize
-}
-
-fn mean_in_cell(column: usize, row: usize, n: usize, f: impl Fn((Real, Real)) -> f64) -> f64 {
-    let at = |i: usize, k: usize| ((i as f64 + (k as f64 + 0.5) / POINTS as f64) / n as f64) as Real;
-    let point = |k: usize| f(uniform_triangle(Vec2::new(at(column, k % POINTS), at(row, k / POINTS))));
-    (0..POINTS * POINTS).map(point).sum::<f64>() / (POINTS * POINTS) as f64
 }
 
 /// The luminance of a spectrum times a smooth one: the spectrum's own is shared out among bands, in each

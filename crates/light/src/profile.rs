@@ -6,7 +6,7 @@
 
 use indigo_math::angle::atan2_turns;
 use indigo_math::elementary::sin_cos_turns;
-use indigo_math::grid_distribution::GridDistribution;
+use indigo_math::grid_distribution::{GridDistribution, cell_means};
 use indigo_math::warp::PI;
 use indigo_math::{Float, Real, Vec2, Vec3};
 
@@ -54,7 +54,10 @@ impl Profile {
             directions: GridDistribution::new(1, 1, &[1.0]),
             flux_lm: flux(vertical_deg, &horizontal, &unfolded),
         };
-        let cells: Vec<f64> = (0..COLUMNS * ROWS).map(|i| profile.cell(i % COLUMNS, i / COLUMNS)).collect();
+        let cells = cell_means([COLUMNS, ROWS], POINTS, |[turn, reach]| {
+            let theta = reach as Real * profile.reach_turns;
+            (profile.at(theta * 360.0, turn as Real * 360.0) * sin_cos_turns(theta).0).to_f64()
+        });
         profile.directions = GridDistribution::new(COLUMNS, ROWS, &cells);
         profile
     }
@@ -117,17 +120,6 @@ impl Profile {
         let (column, fx) = locate(&self.horizontal, horizontal);
         let (low, high) = (along(column), along(column + 1));
         low + fx * (high - low)
-    }
-
-    /// Relative flux of a cell of the grid.
-    fn cell(&self, column: usize, row: usize) -> f64 {
-        let at = |i: usize, k: usize, n: usize| (i as f64 + (k as f64 + 0.5) / POINTS as f64) / n as f64;
-        let points = (0..POINTS * POINTS).map(|k| {
-            let phi = at(column, k % POINTS, COLUMNS) as Real;
-            let theta = at(row, k / POINTS, ROWS) as Real * self.reach_turns;
-            (self.at(theta * 360.0, phi * 360.0) * sin_cos_turns(theta).0).to_f64()
-        });
-        points.sum()
     }
 }
 

@@ -63,6 +63,18 @@ impl GridDistribution {
     }
 }
 
+/// Means of a function of the place in the unit square, from (0, 0) to (1, 1), over the cells of a grid of so many
+/// columns and rows, row by row: by the midpoint rule with so many points along each side of a cell.
+pub fn cell_means([width, height]: [usize; 2], points: usize, f: impl Fn([f64; 2]) -> f64) -> Vec<f64> {
+    let at = |i: usize, k: usize, n: usize| (i as f64 + (k as f64 + 0.5) / points as f64) / n as f64;
+    let mean = |cell: usize| {
+        let (column, row) = (cell % width, cell / width);
+        let point = |k: usize| f([at(column, k % points, width), at(row, k / points, height)]);
+        (0..points * points).map(point).sum::<f64>() / (points * points) as f64
+    };
+    (0..width * height).map(mean).collect()
+}
+
 /// Appends the cumulative probabilities of `n` weights, and returns the weights' sum.
 fn cumulate(weights: impl Iterator<Item = f64> + Clone, n: usize, to: &mut Vec<Real>) -> f64 {
     let sum: f64 = weights.clone().sum();
@@ -119,6 +131,16 @@ mod tests {
             }
         }
         assert!(chi2 < 30.9, "{chi2}");
+    }
+
+    /// Exact where the function is linear; x runs fastest.
+    #[test]
+    fn means_are_those_of_the_cells() {
+        let means = cell_means([3, 2], 2, |[x, y]| 6.0 * x + 100.0 * y);
+        let expected = [26.0, 28.0, 30.0, 76.0, 78.0, 80.0];
+        assert!(means.iter().zip(expected).all(|(m, e)| (m - e).abs() < 1e-12), "{means:?}");
+        // Midpoints of halves: (1/4)² and (3/4)².
+        assert!((cell_means([1, 1], 2, |[x, _]| x * x)[0] - 0.3125).abs() < 1e-12);
     }
 
     #[test]

@@ -15,7 +15,7 @@ use super::Distant;
 use indigo_decl::{Alternatives, Block, Field, Kind, Presence, Range};
 use indigo_math::angle::atan2_turns;
 use indigo_math::elementary::sin_cos_turns;
-use indigo_math::grid_distribution::GridDistribution;
+use indigo_math::grid_distribution::{GridDistribution, cell_means};
 use indigo_math::warp::PI;
 use indigo_math::{Float, Real, Vec2, Vec3};
 use indigo_spectrum::rgb::RgbTable;
@@ -158,7 +158,7 @@ impl EnvMap {
         }
         let luminances: Vec<f32> = texels.iter().map(|t| luminance(*t) as f32).collect();
         let light = |at| bilinear(width, height, at, |k| f64::from(luminances[k]));
-        let weights: Vec<f64> = Cell::all(layout, width, height).map(|cell| cell.integral(light)).collect();
+        let weights = integrals(layout, [width, height], light);
         Self {
             total_luminance: weights.iter().sum::<f64>() * Spectrum::uniform(1.0).luminance(),
             directions: GridDistribution::new(width, height, &weights),
@@ -175,8 +175,7 @@ impl EnvMap {
     #[must_use]
     pub fn drawn_evenly(mut self) -> Self {
         let (width, height) = (self.width, self.height);
-        let solid_angles: Vec<f64> =
-            Cell::all(self.layout, width, height).map(|cell| cell.integral(|_| 1.0)).collect();
+        let solid_angles = integrals(self.layout, [width, height], |_| 1.0);
         self.directions = GridDistribution::new(width, height, &solid_angles);
         self
     }
@@ -254,39 +253,20 @@ fn bilinear(width: usize, height: usize, at: Vec2, texel: impl Fn(usize) -> f64)
     upper * (1.0 - fy) + lower * fy
 }
 
-/// A cell of a map.
-struct Cell {
-    layout: Layout,
-    width: usize,
-    height: usize,
-    column: usize,
-    row: usize,
-}
-
-impl Cell {
-    /// All cells of a map, row by row.
-    fn all(layout: Layout, width: usize, height: usize) -> impl Iterator<Item = Self> {
-        (0..width * height).map(move |i| Self { layout, width, height, column: i % width, row: i / width })
+/// Integrals of a function of the place over the solid angle of each cell of a map, row by row, by the midpoint rule.
+/// There is a point in each quarter of a cell at least, so that a texel that shines anywhere in it counts.
+fn integrals(layout: Layout, [width, height]: [usize; 2], f: impl Fn(Vec2) -> f64) -> Vec<f64> {
+    /// Points over a whole map's width and height, if its cells are fewer.
+    const POINTS: usize = 256;
+    let points = POINTS.div_ceil(width.min(height)).max(2);
+    let mut cells = cell_means([width, height], points, |[x, y]| {
+        let place = Vec2::new(x as Real, y as Real);
+        layout.direction(place).map_or(0.0, |(_, stretch)| f(place) * stretch.to_f64())
+    });
+    for mean in &mut cells {
+        *mean /= (width * height) as f64;
     }
-
-    /// Integral of a function of the place over the cell's solid angle, by the midpoint rule. There is a
-    /// point in each quarter at least, so that a texel that shines anywhere in the cell counts.
-    fn integral(&self, f: impl Fn(Vec2) -> f64) -> f64 {
-        /// Points over a whole map's width and height, if its cells are fewer.
-        const POINTS: usize = 256;
-        let n = POINTS.div_ceil(self.width.min(self.height)).max(2);
-        let at = |i: usize, cells: usize, k: usize| {
-            ((i as f64 + (k as f64 + 0.5) / n as f64) / cells as f64) as Real
-        };
-        let sum: f64 = (0..n * n)
-            .map(|k| {
-                let place = Vec2::new(at(self.column, self.width, k % n), at(self.row, self.height, k / n));
-                let stretch = self.layout.direction(place).map_or(0.0, |(_, stretch)| stretch.to_f64());
-                f(place) * stretch
-            })
-            .sum();
-        sum / (n * n * self.width * self.height) as f64
-    }
+    cells
 }
 
 /// Texels outside an angular map's circle become what the circle's edge is before them, since the

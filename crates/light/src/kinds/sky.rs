@@ -5,7 +5,7 @@ use crate::sky::hosek::HosekSky;
 use crate::sky::preetham::PreethamSky;
 use indigo_math::angle::atan2_turns;
 use indigo_math::elementary::sin_cos_turns;
-use indigo_math::grid_distribution::GridDistribution;
+use indigo_math::grid_distribution::{GridDistribution, cell_means};
 use indigo_math::warp::INV_PI;
 use indigo_math::{Real, Vec2, Vec3, Vec3d};
 use indigo_spectrum::{SampledSpectrum, SampledWavelengths};
@@ -61,19 +61,11 @@ impl Sky {
     /// A sky with the sun in a unit direction above the horizon.
     pub fn new(sun: Vec3d, model: SkyModel) -> Self {
         // tidy: load-time mathematics
-        let cell = |i: usize| {
-            let points = (0..POINTS * POINTS).map(|k| {
-                let at =
-                    |i: usize, k: usize, n: usize| (i as f64 + (k as f64 + 0.5) / POINTS as f64) / n as f64;
-                let turns = at(i % COLUMNS, k % POINTS, COLUMNS);
-                let z = at(i / COLUMNS, k / POINTS, ROWS);
-                let (s, c) = (turns * TAU).sin_cos();
-                let r = (1.0 - z * z).sqrt();
-                model.luminance(z, Vec3d::new(r * c, r * s, z).dot(sun))
-            });
-            points.sum::<f64>() / (POINTS * POINTS) as f64
-        };
-        let cells: Vec<f64> = (0..COLUMNS * ROWS).map(cell).collect();
+        let cells = cell_means([COLUMNS, ROWS], POINTS, |[turns, z]| {
+            let (s, c) = (turns * TAU).sin_cos();
+            let r = (1.0 - z * z).sqrt();
+            model.luminance(z, Vec3d::new(r * c, r * s, z).dot(sun))
+        });
         Self {
             total_luminance: cells.iter().sum::<f64>() * TAU / (COLUMNS * ROWS) as f64,
             directions: GridDistribution::new(COLUMNS, ROWS, &cells),
