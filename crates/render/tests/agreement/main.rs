@@ -120,6 +120,7 @@ grid! {
     always: [
         small_light,
         environment_and_lamp,
+        all_lights_together,
         portal_lit_room,
         thin_lens_out_of_focus,
         coloured_walls_and_lamps,
@@ -140,6 +141,8 @@ grid! {
         rectangle_lamp_beside_a_hazy_sky,
         photometric_lamp,
         sun_and_sky,
+        sun_in_space,
+        two_sided_photometric_lamp,
         textured_lamp,
         blades_out_of_focus,
         deflected_rays,

@@ -24,8 +24,8 @@ pub fn sun_and_sky() -> Scene {
     build(&[common(view()), open_room(false), block("grey"), skylight("0.3 -1 0.7")])
 }
 
-/// An angular map of 8 by 8 texels with a bright one behind the camera, and a background that adds to it.
-pub fn environment_map() -> Scene {
+/// An angular map of 8 by 8 texels with a bright one behind the camera, and its file.
+fn map() -> (String, Vec<u8>) {
     let texel = |i: usize| match i {
         // At the rim, where -y is.
         20 => [3e5, 1e5, 2e4],
@@ -34,44 +34,68 @@ pub fn environment_map() -> Scene {
     let bytes = (0..64).flat_map(texel).flat_map(f32::to_le_bytes).collect();
     let map =
         "<env_map><spherical><path>map.float</path><width>8</width><gain>2</gain></spherical></env_map>";
-    let parts =
-        [common(view()), open_room(true), block("white"), vec![map.to_owned(), background(&uniform(5e2))]];
+    (map.to_owned(), bytes)
+}
+
+/// The map, and a background that adds to it.
+pub fn environment_map() -> Scene {
+    let (map, bytes) = map();
+    let parts = [common(view()), open_room(true), block("white"), vec![map, background(&uniform(5e2))]];
     scene_with(&scene_file(&parts.concat()), [("map.float", bytes)])
 }
 
-/// A square lamp under the ceiling with texture coordinates.
-fn square_lamp(more: &str) -> Vec<String> {
+/// The sun without air: nothing but a disc, which shines into the corner between floor and wall.
+pub fn sun_in_space() -> Scene {
+    let sun = "<skylight><sundir>0.3 -1 0.7</sundir><turbidity>3</turbidity><extra_atmospheric>true</extra_atmospheric></skylight>";
+    build(&[common(view()), open_room(false), block("grey"), vec![sun.to_owned()]])
+}
+
+/// A square lamp with texture coordinates, whose middle is somewhere.
+fn square_lamp(name: &str, middle: [f64; 3], more: &str) -> Vec<String> {
+    let [mx, my, z] = middle;
     let corner = |x: i32, y: i32| {
         let at = |v: i32| 0.4 * f64::from(v);
         let uv = |v: i32| f64::from((v + 1) / 2);
-        format!("<vertex pos=\"{} {} 0.95\" uv0=\"{} {}\"/>", at(x), at(y), uv(x), uv(y))
+        format!("<vertex pos=\"{} {} {z}\" uv0=\"{} {}\"/>", mx + at(x), my + at(y), uv(x), uv(y))
     };
     let vertices: String = [(-1, -1), (-1, 1), (1, 1), (1, -1)].map(|(x, y)| corner(x, y)).concat();
     let set = "<expose_uv_set><index>0</index><name>default</name></expose_uv_set>";
     let triangles = "<tri>0 1 2</tri><tri>0 2 3</tri>";
     vec![
         format!(
-            "<mesh><name>lamp</name><normal_smoothing>false</normal_smoothing><embedded>{set}{vertices}<triangle_set>\
+            "<mesh><name>{name}</name><normal_smoothing>false</normal_smoothing><embedded>{set}{vertices}<triangle_set>\
              <material_name>black</material_name>{triangles}</triangle_set></embedded></mesh>"
         ),
         format!(
-            "<meshlight><pos>0 0 0</pos><scale>1</scale><mesh_name>lamp</mesh_name><spectrum>{}</spectrum>{more}</meshlight>",
+            "<meshlight><pos>0 0 0</pos><scale>1</scale><mesh_name>{name}</mesh_name><spectrum>{}</spectrum>{more}</meshlight>",
             uniform(1e5)
         ),
     ]
 }
 
+const PROFILE: &str = "<ies_profile><path>lamp.ies</path></ies_profile>";
+
 /// Intensity that depends on both angles, down to none along the ceiling.
 pub fn photometric_lamp() -> Scene {
-    let lamp = square_lamp("<ies_profile><path>lamp.ies</path></ies_profile>");
-    let file = include_bytes!("../../../../../testscenes/ies/quadrant_bat.ies");
+    lit_by_profile(0.95, include_bytes!("../../../../../testscenes/ies/quadrant_bat.ies"))
+}
+
+/// One that shines upwards, too.
+pub fn two_sided_photometric_lamp() -> Scene {
+    lit_by_profile(0.5, include_bytes!("../../../../../testscenes/ies/reject_vertical_0_180.ies"))
+}
+
+/// A room with a photometric lamp at some height.
+fn lit_by_profile(z: f64, file: &[u8]) -> Scene {
+    let lamp = square_lamp("lamp", [0.0, 0.0, z], PROFILE);
     let parts = [common(view()), room(["white"; 4]), block("grey"), lamp];
     scene_with(&scene_file(&parts.concat()), [("lamp.ies", file.to_vec())])
 }
 
-/// A lamp with a picture of two by two texels, one of them bright.
-pub fn textured_lamp() -> Scene {
-    let lamp = square_lamp("<texture><path>lamp.float.bmp</path><exponent>1</exponent><b>3</b></texture>");
+const MAP: &str = "<texture><path>lamp.bmp</path><exponent>1</exponent><b>3</b></texture>";
+
+/// Two by two texels, one of them bright.
+fn picture() -> Vec<u8> {
     let mut picture = b"BM".to_vec();
     for word in [70_u32, 0, 54, 40, 2, 2] {
         picture.extend(word.to_le_bytes());
@@ -81,8 +105,35 @@ pub fn textured_lamp() -> Scene {
         picture.extend(word.to_le_bytes());
     }
     picture.extend([0, 0, 0, 255, 120, 40, 0, 0, 20, 20, 200, 0, 0, 0, 0, 0]);
+    picture
+}
+
+/// A lamp with a picture.
+pub fn textured_lamp() -> Scene {
+    let lamp = square_lamp("lamp", [0.0, 0.0, 0.95], MAP);
     let parts = [common(view()), room(["white"; 4]), block("white"), lamp];
-    scene_with(&scene_file(&parts.concat()), [("lamp.float.bmp", picture)])
+    scene_with(&scene_file(&parts.concat()), [("lamp.bmp", picture())])
+}
+
+/// A low sun with its sky, a map, a lamp with a picture and a photometric one, which give the room about as much light
+/// each: every kind in a single scene, so that each run has them.
+pub fn all_lights_together() -> Scene {
+    let file = include_str!("../../../../../testscenes/ies/quadrant_bat.ies");
+    // Ten times as bright.
+    let bright = file.replacen("1 -1 1 ", "1 -1 10 ", 1);
+    assert_ne!(bright, file);
+    let (map, texels) = map();
+    let parts = [
+        common(view()),
+        open_room(true),
+        block("white"),
+        square_lamp("lamp with a picture", [-0.5, 0.1, 0.95], MAP),
+        square_lamp("photometric lamp", [0.5, 0.3, 0.7], PROFILE),
+        vec![map],
+        skylight("0.3 -1 0.05"),
+    ];
+    let files = [("map.float", texels), ("lamp.ies", bright.into_bytes()), ("lamp.bmp", picture())];
+    scene_with(&scene_file(&parts.concat()), files)
 }
 
 /// Portals over both openings of a roofless room.
