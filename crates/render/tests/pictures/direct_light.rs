@@ -1,7 +1,9 @@
 //! Direct light against closed forms: luminance of the lamp, and of a diffuse floor under it.
 
 use super::common::judge::{NITS_PER_UNIFORM, assert_is, assert_near};
-use super::common::shapes::{Mesh, Point, disc_irradiance, mesh_light, model, rotation, sub};
+use super::common::shapes::{
+    Mesh, Point, add, cross, disc_irradiance, dot, length, mesh_light, model, rotation, sub, unit,
+};
 use super::common::text::{flat_camera, grey, scene_file, settings, uniform};
 use super::common::{measure, scene};
 use std::f64::consts::PI;
@@ -182,4 +184,49 @@ fn efficacy_scale_gives_a_mesh_light_its_flux_at_any_size() {
 fn two_lamps_add_up() {
     let second = manual_lamp().replace("0 0 1.9", "1 1 1.9");
     assert_lit("two lamps", &(manual_lamp() + &second), [1.0, 1.0, 0.0], 153.737_6 + 63.905_8, 96);
+}
+
+/// A small lamp in sight of the floor: E = L A cos θ cos θ' / d², times the part of it that nothing hides. A black sheet
+/// stands just before it, from across the line of sight to beyond one side, or all over it.
+#[test]
+fn a_small_lamp_lights_by_inverse_squares_what_is_in_its_line_of_sight() {
+    let (radiance, half): (f64, f64) = (1.0e11, 0.001);
+    let (target, lamp_at) = ([0.2, 0.1, 0.0], [0.9, -0.6, 1.8]);
+    let way = sub(target, lamp_at);
+    let (distance, sight) = (length(way), unit(way));
+    // Its front does not look straight at the floor's point.
+    let front = unit(add(sight, [0.9, 0.4, 0.1]));
+    let across = unit(cross(front, [0.0, 0.0, 1.0]));
+    let along = cross(front, across);
+    let rectangle = |middle: Point, [a0, a1]: [f64; 2], b: f64| {
+        let corner = |a: f64, b: f64| add(middle, add(across.map(|x| x * a), along.map(|x| x * b)));
+        Mesh::polygon(vec![corner(a0, -b), corner(a1, -b), corner(a1, b), corner(a0, b)])
+    };
+    let [cos_floor, cos_lamp] = [-sight[2], dot(front, sight)];
+    assert!(cos_lamp > 0.5 && cos_lamp < 0.8);
+    let free = radiance * NITS_PER_UNIFORM * (2.0 * half).powi(2) * cos_floor * cos_lamp / distance.powi(2);
+    for (what, from, part) in [("free", 0.05, 1.0), ("half hidden", 0.0, 0.5), ("hidden", -0.05, 0.0)] {
+        let before = add(lamp_at, sight.map(|x| x * 0.001));
+        let parts = [
+            grey("black", 0.0),
+            rectangle(lamp_at, [-half, half], half).text("lamp", "black"),
+            mesh_light("lamp", &uniform(radiance), [0.0; 3], 1.0, ""),
+            rectangle(before, [from, 0.1], 0.1).text("sheet", "black"),
+            model("sheet"),
+        ];
+        // Rays begin as near to the lamp as can be: a tenth of a millimetre before it they would pass the edge aside.
+        let text = over_floor(&parts.concat(), eye_of(target), target);
+        let exact = "<ray_origin_nudge_distance>1e-7</ray_origin_nudge_distance></renderer_settings>";
+        let mut scene = scene(&text.replace("</renderer_settings>", exact));
+        for bidirectional in [false, true] {
+            scene.transport.bidirectional = bidirectional;
+            let measured = measure(&scene, 16, 384);
+            if part == 0.0 {
+                assert_eq!(measured.luminance().mean(), 0.0);
+            } else {
+                let what = format!("{what}, bidirectional {bidirectional}");
+                assert_is(&what, measured.luminance(), ALBEDO * part * free / PI, TOLERANCE);
+            }
+        }
+    }
 }
