@@ -1,11 +1,12 @@
 //! Lamps made of triangles: mesh lights and rectangles.
 
+use crate::light_tree::Lobe;
 use crate::modulation::Modulation;
 use crate::profile::Profile;
 use crate::query::EmitterPoint;
 use indigo_math::distribution::AliasTable;
 use indigo_math::warp::{cosine_hemisphere, cosine_hemisphere_pdf, uniform_triangle};
-use indigo_math::{Frame, Real, Vec2, Vec3, Vec3d};
+use indigo_math::{Float, Frame, Real, Vec2, Vec3, Vec3d};
 use indigo_spectrum::{SampledSpectrum, SampledWavelengths, Spectrum};
 use indigo_texture::Texture;
 use std::f64::consts::PI;
@@ -142,6 +143,31 @@ impl AreaLight {
         self.area_m2
     }
 
+    /// How many triangles there are.
+    pub(crate) fn len(&self) -> usize {
+        self.triangles.len()
+    }
+
+    /// A triangle's share of the flux, of which a texture leaves a part to dark ones, too.
+    pub(crate) fn share(&self, triangle: usize) -> f64 {
+        self.choice.probability(triangle).to_f64()
+    }
+
+    /// Corners of a triangle.
+    pub(crate) fn corners(&self, triangle: usize) -> [Vec3d; 3] {
+        let t = &self.triangles[triangle];
+        [t.corner, t.corner + t.edge1, t.corner + t.edge2].map(Vec3::cast)
+    }
+
+    /// Directions in which light leaves a triangle.
+    pub(crate) fn lobe(&self, triangle: usize) -> Lobe {
+        let normal = self.triangles[triangle].normal.cast();
+        match &self.photometry {
+            None => Lobe::lambertian(normal),
+            Some(p) => Lobe::even(normal, p.profile.widest_angle()),
+        }
+    }
+
     /// Luminous flux in lm: π · area · luminance, or that of the profile.
     pub fn flux(&self) -> f64 {
         self.photometry
@@ -193,20 +219,37 @@ impl AreaLight {
         if self.area_m2 == 0.0 {
             return None;
         }
-        let (i, _, _) = self.choice.sample(choice);
-        let t = &self.triangles[i];
+        Some(self.sample_point_of(self.choice.sample(choice).0, at))
+    }
+
+    /// A point of a triangle, with density [`pdf_point_of`](Self::pdf_point_of) if the triangle is certain.
+    #[inline]
+    pub(crate) fn sample_point_of(&self, triangle: usize, at: [Real; 2]) -> EmitterPoint {
+        let t = &self.triangles[triangle];
         let v = Vec2::from(at);
-        let bary = self.modulation.as_ref().map_or_else(|| uniform_triangle(v), |m| m.sample(i, v));
+        let bary = self.modulation.as_ref().map_or_else(|| uniform_triangle(v), |m| m.sample(triangle, v));
         let (a, b) = (t.edge1 * bary.0, t.edge2 * bary.1);
         // Two products and two sums, each rounded once, of magnitudes that the terms bound.
         let p_error = (t.corner.abs() + a.abs() + b.abs()) * (4.0 * Real::EPSILON);
-        Some(EmitterPoint { p: t.corner + a + b, p_error, n: t.normal, triangle: i as u32, bary })
+        EmitterPoint { p: t.corner + a + b, p_error, n: t.normal, triangle: triangle as u32, bary }
     }
 
     /// Density of [`sample_point`](Self::sample_point) over area (1/m²).
     #[inline]
     pub(crate) fn pdf_point(&self, triangle: u32, bary: (Real, Real)) -> Real {
-        let density = self.density[triangle as usize];
+        self.modulated(self.density[triangle as usize], triangle, bary)
+    }
+
+    /// Density over area (1/m²) of a point of a triangle that is drawn with some probability.
+    #[inline]
+    pub(crate) fn pdf_point_of(&self, triangle: u32, bary: (Real, Real), probability: f64) -> Real {
+        let area = self.areas[triangle as usize];
+        let even = if area > 0.0 { (probability / area) as Real } else { 0.0 };
+        self.modulated(even, triangle, bary)
+    }
+
+    #[inline]
+    fn modulated(&self, density: Real, triangle: u32, bary: (Real, Real)) -> Real {
         self.modulation.as_ref().map_or(density, |m| density * m.pdf(triangle, bary))
     }
 
@@ -241,7 +284,6 @@ fn horizontal_frame(normal: Vec3, x_axis: Vec3) -> Frame {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use indigo_math::Float;
     use indigo_math::rng::Rng;
 
     fn two_triangles() -> AreaLight {

@@ -3,6 +3,7 @@
 mod area;
 mod environment;
 pub mod kinds;
+mod light_tree;
 mod line_tree;
 mod map_mean;
 mod map_row;

@@ -67,6 +67,14 @@ impl Profile {
         self.flux_lm
     }
 
+    /// The vertical angle in radians within which all light leaves.
+    pub fn widest_angle(&self) -> f64 {
+        let n = self.vertical.len();
+        let is_lit = |i: usize| self.candela.chunks_exact(n).any(|column| column[i] > 0.0);
+        let last_lit = (0..n).rposition(is_lit).unwrap_or(n - 1);
+        self.vertical[(last_lit + 1).min(n - 1)].to_f64().to_radians()
+    }
+
     /// Whether light leaves both sides of the lamp.
     #[inline]
     pub fn is_two_sided(&self) -> bool {

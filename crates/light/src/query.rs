@@ -10,20 +10,39 @@ pub struct Receiver {
     pub p: Vec3,
     /// Unit normal on the side from which light counts; zero where it counts from all sides.
     pub n: Vec3,
+    /// Whether light counts from behind, too.
+    pub is_lit_through: bool,
 }
 
 impl Receiver {
-    /// A surface, on the side of a unit normal. Distant lights may leave out what comes from behind it; where the
-    /// surface lets that through, scattering finds it.
+    /// A surface that is lit on the side of a unit normal alone.
     #[inline]
     pub fn facing(p: Vec3, n: Vec3) -> Self {
-        Self { p, n }
+        Self { p, n, is_lit_through: false }
+    }
+
+    /// A surface that lets light through. Distant lights may leave out what comes from behind it, which scattering
+    /// finds.
+    #[inline]
+    pub fn lit_through(p: Vec3, n: Vec3) -> Self {
+        Self { p, n, is_lit_through: true }
     }
 
     /// A point that is lit from all sides: in a medium.
     #[inline]
     pub fn all_round(p: Vec3) -> Self {
-        Self { p, n: Vec3::ZERO }
+        Self { p, n: Vec3::ZERO, is_lit_through: true }
+    }
+
+    /// Cosine under which light from a unit direction arrives, below 0 where it does not count; `None` where it is the
+    /// same from everywhere.
+    #[inline]
+    pub(crate) fn cos_arriving(&self, from: Vec3) -> Option<Real> {
+        if self.n == Vec3::ZERO {
+            return None;
+        }
+        let cos = self.n.dot(from);
+        Some(if self.is_lit_through { cos.abs() } else { cos })
     }
 }
 

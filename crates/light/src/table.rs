@@ -1,25 +1,29 @@
 //! All lights of a scene: choosing one, drawing light from it, and the density of having done so.
 //!
-//! Lamps are chosen by their power. The environment's power grows with the scene's extent, and says nothing of what
+//! Light leaves lamps by their power, and is drawn for a receiver by what each may give it ([`LightTree`]). The
+//! environment's power grows with the scene's extent, and says nothing of what
 //! gets to a receiver, least of all in a room: beside lamps it gets half of the draws, and half of the light paths
 //! begin with it. So whichever of the two matters, it has half of the samples that it would have alone.
 
 use crate::area::AreaLight;
 use crate::environment::Environment;
 use crate::kinds::DistantLight;
+use crate::light_tree::LightTree;
 use crate::portals::Portals;
 use crate::query::{Emission, EmissionPdf, EmitterHit, LightSample, Receiver};
 use indigo_math::distribution::{AliasTable, refined};
 use indigo_math::{Float, Real, Vec3, Vec3d};
 use indigo_spectrum::{LightSpectrum, SampledSpectrum, SampledWavelengths};
 
-/// Lamps and the environment, with a distribution to choose among them by power.
+/// Lamps and the environment, with distributions to choose among them.
 #[derive(Clone, Debug)]
 pub struct LightTable {
     lamps: Vec<AreaLight>,
     environment: Option<Environment>,
-    /// Over the lamps.
+    /// Over the lamps, for light that leaves one.
     by_power: AliasTable,
+    /// Over their triangles, for receivers.
+    for_receivers: LightTree,
     /// The environment's share of the light paths that begin, and of the draws for receivers; the rest is the lamps'.
     share_of_emission: f64,
     share_of_draws: f64,
@@ -42,7 +46,7 @@ fn strongest(table: &AliasTable) -> Vec<usize> {
 
 /// What was chosen, with a fresh number in [0, 1).
 enum Chosen {
-    Lamp(usize, f64),
+    Lamps(f64),
     Environment(f64),
 }
 
@@ -74,6 +78,7 @@ impl LightTable {
         let share = |has_part: bool| if has_part { beside_lamps } else { 0.0 };
         Self {
             by_power: AliasTable::new(&powers),
+            for_receivers: LightTree::new(&lamps),
             share_of_emission: share(lit.is_some()),
             share_of_draws: share(lit.is_some_and(Environment::is_drawn)),
             of_object: object_lamps.map(|l| l.unwrap_or(NO_LAMP)).collect(),
@@ -96,7 +101,7 @@ impl LightTable {
     pub fn spectrum(&self) -> LightSpectrum {
         let mut spectrum = LightSpectrum::default();
         for i in strongest(&self.by_power) {
-            let share = self.lamp_chance(self.share_of_emission, i).to_f64();
+            let share = self.chance_of_sending(i).to_f64();
             spectrum.add(share, |lambda| self.lamps[i].radiance().eval(lambda));
         }
         if let Some(environment) = self.environment.as_ref().filter(|e| e.shines()) {
@@ -116,23 +121,33 @@ impl LightTable {
         (i != NO_LAMP).then(|| (i as usize, &self.lamps[i as usize]))
     }
 
-    /// Chooses among the lamps and the environment, which has some share; `None` where there is neither.
+    /// Chooses between the lamps and the environment, which has some share; `None` where there is neither.
     #[inline]
     fn choose(&self, share: f64, u: [Real; 4]) -> Option<Chosen> {
         let u = refined(u[0], u[3]);
         if u < share {
             return Some(Chosen::Environment(u / share));
         }
-        (!self.lamps.is_empty()).then(|| {
-            let (i, _, rest) = self.by_power.sample((u - share) / (1.0 - share));
-            Chosen::Lamp(i, rest)
-        })
+        (!self.lamps.is_empty()).then(|| Chosen::Lamps((u - share) / (1.0 - share)))
     }
 
-    /// Probability of choosing a lamp, beside an environment that has some share.
+    /// Density over area (1/m²) with which [`sample`](Self::sample) draws a point of a lamp's triangle.
     #[inline]
-    fn lamp_chance(&self, share: f64, i: usize) -> Real {
-        (1.0 - share) as Real * self.by_power.probability(i)
+    fn pdf_drawn(&self, lamp: usize, triangle: u32, bary: (Real, Real), to: &Receiver) -> Real {
+        let probability = self.for_receivers.probability(lamp, triangle, to);
+        self.lamps[lamp].pdf_point_of(triangle, bary, (1.0 - self.share_of_draws) * probability)
+    }
+
+    /// Probability that a light path begins on a lamp.
+    #[inline]
+    fn chance_of_sending(&self, lamp: usize) -> Real {
+        (1.0 - self.share_of_emission) as Real * self.by_power.probability(lamp)
+    }
+
+    /// Density over area (1/m²) with which light leaves a point of a lamp's triangle.
+    #[inline]
+    fn pdf_sent(&self, lamp: usize, triangle: u32, bary: (Real, Real)) -> Real {
+        self.chance_of_sending(lamp) * self.lamps[lamp].pdf_point(triangle, bary)
     }
 
     /// Draws light towards a receiver: `u` chooses a light, a point on it or a direction towards it (two
@@ -140,12 +155,14 @@ impl LightTable {
     #[inline]
     pub fn sample(&self, to: &Receiver, u: [Real; 4], lambda: &SampledWavelengths) -> Option<LightSample> {
         let at = [u[1], u[2]];
-        let (i, rest) = match self.choose(self.share_of_draws, u)? {
-            Chosen::Lamp(i, rest) => (i, rest),
+        let rest = match self.choose(self.share_of_draws, u)? {
+            Chosen::Lamps(rest) => rest,
             Chosen::Environment(rest) => return self.sample_environment(to, rest, at, lambda),
         };
+        let (drawn, probability) = self.for_receivers.sample(to, rest)?;
+        let i = drawn.lamp as usize;
         let lamp = &self.lamps[i];
-        let mut point = lamp.sample_point(rest, at)?;
+        let mut point = lamp.sample_point_of(drawn.triangle as usize, at);
         let front = point.n;
         let way = point.p - to.p;
         let distance2 = way.length2();
@@ -158,14 +175,15 @@ impl LightTable {
         if cos <= 0.0 || distance2 == 0.0 {
             return None;
         }
-        let over_area = lamp.pdf_point(point.triangle, point.bary);
+        let (triangle, bary) = (point.triangle, point.bary);
+        let over_area = lamp.pdf_point_of(triangle, bary, (1.0 - self.share_of_draws) * probability);
         Some(LightSample {
             wi,
-            radiance: lamp.emitted(point.triangle, point.bary, -wi, lambda),
-            pdf: self.lamp_chance(self.share_of_draws, i) * over_area * distance2 / cos,
+            radiance: lamp.emitted(triangle, bary, -wi, lambda),
+            pdf: over_area * distance2 / cos,
             pdf_emission: EmissionPdf {
-                first: self.lamp_chance(self.share_of_emission, i) * over_area,
-                second: lamp.pdf_direction(point.triangle, front, -wi),
+                first: self.pdf_sent(i, triangle, bary),
+                second: lamp.pdf_direction(triangle, front, -wi),
             },
             point: Some(point),
         })
@@ -216,7 +234,7 @@ impl LightTable {
         if cos.is_nan() || cos <= 0.0 {
             return 0.0;
         }
-        self.lamp_chance(self.share_of_draws, i) * lamp.pdf_point(hit.triangle, hit.bary) * distance2 / cos
+        self.pdf_drawn(i, hit.triangle, hit.bary, to) * distance2 / cos
     }
 
     /// Densities with which [`sample_emission`](Self::sample_emission) draws light that leaves a point
@@ -225,7 +243,7 @@ impl LightTable {
     pub fn pdf_emission_object(&self, hit: &EmitterHit, wo: Vec3) -> EmissionPdf {
         let Some((i, lamp)) = self.lamp(hit.object) else { return EmissionPdf::NEVER };
         EmissionPdf {
-            first: self.lamp_chance(self.share_of_emission, i) * lamp.pdf_point(hit.triangle, hit.bary),
+            first: self.pdf_sent(i, hit.triangle, hit.bary),
             second: lamp.pdf_direction(hit.triangle, hit.n, wo),
         }
     }
@@ -266,15 +284,16 @@ impl LightTable {
         lambda: &SampledWavelengths,
     ) -> Option<Emission> {
         let at = [u[1], u[2]];
-        let (i, rest) = match self.choose(self.share_of_emission, u)? {
-            Chosen::Lamp(i, rest) => (i, rest),
+        let rest = match self.choose(self.share_of_emission, u)? {
+            Chosen::Lamps(rest) => rest,
             Chosen::Environment(rest) => return self.sample_emission_environment(rest, at, v, lambda),
         };
+        let (i, _, rest) = self.by_power.sample(rest);
         let lamp = &self.lamps[i];
         let mut point = lamp.sample_point(rest, at)?;
         let direction = lamp.sample_direction(&point, v);
         let pdf = EmissionPdf {
-            first: self.lamp_chance(self.share_of_emission, i) * lamp.pdf_point(point.triangle, point.bary),
+            first: self.pdf_sent(i, point.triangle, point.bary),
             second: lamp.pdf_direction(point.triangle, point.n, direction),
         };
         if direction.dot(point.n) < 0.0 {
@@ -317,7 +336,6 @@ impl LightTable {
     #[inline]
     pub fn pdf_sample_of(&self, emission: &Emission, to: &Receiver) -> Real {
         let Some(point) = &emission.point else { return self.pdf_environment(to, -emission.direction) };
-        let i = emission.lamp as usize;
-        self.lamp_chance(self.share_of_draws, i) * self.lamps[i].pdf_point(point.triangle, point.bary)
+        self.pdf_drawn(emission.lamp as usize, point.triangle, point.bary, to)
     }
 }

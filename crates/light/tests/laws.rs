@@ -271,16 +271,15 @@ fn lamps_and_environment_share_the_draws() {
     }
 }
 
-/// A square's share of the draws is its share of the power: π · area · radiance.
+/// A square's share of the light that is sent out is its share of the power: π · area · radiance.
 #[test]
-fn lights_are_chosen_by_power() {
+fn light_leaves_by_power() {
     let table = table(false);
     let power = squares().map(|s| 4.0 * s.half * s.half * s.radiance);
     let total: f64 = power.iter().sum();
     for (i, (s, p)) in squares().iter().zip(power).enumerate() {
-        // Density over area, from the density over directions under a cosine of 1 at 1 m.
         let hit = EmitterHit { object: 1 + i as u32, triangle: 0, bary: (0.2, 0.2), p: P, n: N };
-        let over_area = table.pdf_object(&hit, &Receiver::all_round(N)) as f64;
+        let over_area = table.pdf_emission_object(&hit, N).first as f64;
         let expected = p / total / (4.0 * s.half * s.half);
         assert!((over_area / expected - 1.0).abs() < 1e-5, "light {i}: {over_area} {expected}");
     }

@@ -54,6 +54,11 @@ pub trait Scatter {
         SampledSpectrum::ONE
     }
 
+    /// Whether [`f`](Self::f) can be other than 0 where light passes to the other side.
+    fn lets_through(&self) -> bool {
+        false
+    }
+
     /// Whether there is anything but events of delta kind: whether the point can be connected to others.
     fn is_connectable(&self) -> bool {
         true

@@ -110,6 +110,12 @@ impl ShadingPoint {
         self.leaf.is_connectable()
     }
 
+    /// Whether light from the other side can be scattered to this one, but by events of delta kind.
+    #[inline]
+    pub fn lets_through(&self) -> bool {
+        self.leaf.lets_through()
+    }
+
     /// BSDF, cosine and both densities for a direction.
     #[inline]
     pub fn eval(&self, wi: Vec3, mode: Mode) -> Evaluation {

@@ -1,5 +1,6 @@
 //! The scenes: a room of diffuse light, a caustic, glossy balls under the sky, and coloured twins of each, whose
-//! errors are to be read in XYZ; and a room lit through a gap from the next one.
+//! errors are to be read in XYZ; a room lit through a gap from the next one; and lamps by the dozen, of which the camera's
+//! room has a few, or all.
 
 use super::common::scene;
 use super::common::shapes::{Mesh, mesh_light, model};
@@ -67,6 +68,8 @@ pub fn all() -> Vec<BenchScene> {
         balls("balls", &white),
         balls("balls-coloured", &coloured),
         gap("gap", &white),
+        rooms("rooms"),
+        hall("hall"),
     ]
 }
 
@@ -215,5 +218,78 @@ fn balls(name: &str, paint: &Paint) -> BenchScene {
         vec![sphere([-1.1, 0.0, 1.0], 1.0, "smooth"), sphere([1.1, 0.0, 1.0], 1.0, "ball")],
         vec![sphere([0.0, -1.5, 0.5], 0.5, "rough"), background(&(paint.lamp)(13_702.0))],
     ];
+    BenchScene::new(name, "path", &parts)
+}
+
+/// A lamp of some flux (lm) in the form of a square that looks down, some way round a point of the ceiling.
+fn panel(at: [f64; 3], side: f64, flux: f64) -> String {
+    let [x, y, z] = at;
+    format!(
+        "<rectanglelight><pos>{x} {y} {z}</pos><width>{side}</width><height>{side}</height><spectrum>{}</spectrum>\
+         <efficacy_scale><power_drawn>{flux}</power_drawn><overall_luminous_efficacy>1</overall_luminous_efficacy>\
+         </efficacy_scale></rectanglelight>",
+        uniform(1.0)
+    )
+}
+
+/// The same in the form of a ball of 128 triangles.
+fn bulb(at: [f64; 3], flux: f64) -> String {
+    let efficacy = format!(
+        "<efficacy_scale><power_drawn>{flux}</power_drawn><overall_luminous_efficacy>1</overall_luminous_efficacy>\
+         </efficacy_scale>"
+    );
+    mesh_light("bulb", &uniform(1.0), at, 0.04, &efficacy)
+}
+
+/// A closed room of 4 m by 4 m by 2.5 m.
+fn closed_room(at: [f64; 2]) -> String {
+    let pos = format!("<pos>{} {} 0</pos>", at[0], at[1]);
+    model("walls").replace("<pos>0 0 0</pos>", &pos)
+}
+
+/// A building of four by four rooms that are closed, with two panels and two bulbs in each, and a floodlight of
+/// 1.75 million lm in a closed box 50 m off.
+fn rooms(name: &str) -> BenchScene {
+    let walls =
+        Mesh::cube(1.0).inside_out().placed([2., 0., 0., 0., 2., 0., 0., 0., 1.25], 1.0, [0., 0., 1.25]);
+    let camera = flat_camera([-1.7, -1.8, 1.6], [0.6, 0.75, -0.12], 0.75);
+    let block = Mesh::cube(0.4).placed([1., 0., 0., 0., 1., 0., 0., 0., 1.], 1.0, [0.6, 0.5, 0.4]);
+    let mut parts = vec![
+        head(camera),
+        vec![walls.text("walls", "white"), Mesh::ball(2).text("bulb", "black")],
+        vec![block.text("block", "grey"), model("block")],
+    ];
+    for i in 0..16 {
+        let [x, y] = [i % 4 - 1, i / 4 - 1].map(|k| 4.2 * f64::from(k));
+        let lamps = vec![
+            closed_room([x, y]),
+            panel([x + 0.8, y + 0.9, 2.45], 0.4, 1750.0),
+            panel([x - 0.9, y - 0.7, 2.45], 0.2, 900.0),
+            bulb([x - 1.2, y + 1.3, 1.4], 800.0),
+            bulb([x + 1.5, y - 1.4, 1.9], 400.0),
+        ];
+        parts.push(lamps);
+    }
+    parts.push(vec![closed_room([50.0, 0.0]), panel([50.0, 0.0, 2.4], 1.0, 1.75e6)]);
+    BenchScene::new(name, "path", &parts)
+}
+
+/// A hall of 30 m by 30 m under 400 panels, with 50 bulbs about knee-high.
+fn hall(name: &str) -> BenchScene {
+    let walls =
+        Mesh::cube(1.0).inside_out().placed([15., 0., 0., 0., 15., 0., 0., 0., 3.], 1.0, [0., 0., 3.]);
+    let camera = flat_camera([-12.0, -13.0, 2.2], [0.6, 0.75, -0.12], 0.75);
+    let mut parts = vec![
+        head(camera),
+        vec![walls.text("walls", "grey"), model("walls"), Mesh::ball(2).text("bulb", "black")],
+    ];
+    for i in 0..400 {
+        let [x, y] = [i % 20, i / 20].map(|k| 1.45 * f64::from(k) - 13.8);
+        parts.push(vec![panel([x, y, 5.9], 0.3, 300.0 + 50.0 * f64::from(i * 7 % 13))]);
+    }
+    for i in 0..50 {
+        let [x, y] = [i * 37 % 50, i * 13 % 49].map(|k| 0.55 * f64::from(k) - 13.5);
+        parts.push(vec![bulb([x, y, 0.5], 100.0 + 20.0 * f64::from(i % 10))]);
+    }
     BenchScene::new(name, "path", &parts)
 }

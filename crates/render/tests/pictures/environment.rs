@@ -4,7 +4,7 @@ use super::common::judge::{NITS_PER_UNIFORM, assert_is, assert_near};
 use super::common::noise::{luminances, rel_mse};
 use super::common::shapes::{Mesh, model, sub};
 use super::common::small_sun::under_small_sun;
-use super::common::starved::{closed_room, lamp_over_ground};
+use super::common::starved::{SKY, closed_room, floodlight, lamp_over_ground};
 use super::common::text::{background, flat_camera, grey, scene_file, settings, uniform};
 use super::common::{Measured, measure, scene_with};
 use indigo_imaging::{LinearImage, Metadata, exr};
@@ -183,7 +183,13 @@ fn assert_not_starved(what: &str, mut scenes: [Scene; 2]) {
 
 #[test]
 fn a_sky_that_nothing_sees_takes_few_draws_from_a_lamp() {
-    assert_not_starved("a closed room beside a sky", [false, true].map(closed_room));
+    assert_not_starved("a closed room beside a sky", ["", SKY].map(closed_room));
+}
+
+/// By power alone the error would be some thousand times as large.
+#[test]
+fn a_floodlight_elsewhere_takes_few_draws_from_a_lamp() {
+    assert_not_starved("a closed room beside a floodlight", ["", &floodlight()].map(closed_room));
 }
 
 #[test]

@@ -100,4 +100,9 @@ impl Scatter for DiffuseTransmitterLeaf {
         let d = cosine_hemisphere(Vec2::new(u[0], u[1]));
         Some(LocalSample::smooth(Vec3::new(d.x, d.y, -d.z), Crossing::Down))
     }
+
+    #[inline]
+    fn lets_through(&self) -> bool {
+        true
+    }
 }

@@ -194,6 +194,11 @@ impl Scatter for GlossyTransparentLeaf {
     fn eta(&self) -> SampledSpectrum {
         self.eta
     }
+
+    #[inline]
+    fn lets_through(&self) -> bool {
+        true
+    }
 }
 
 /// A direction in the frame that has the other side above.

@@ -246,6 +246,13 @@ macro_rules! registry {
             }
 
             #[inline]
+            fn lets_through(&self) -> bool {
+                match self {
+                    $(Self::$material(m) => m.lets_through(),)*
+                }
+            }
+
+            #[inline]
             fn is_connectable(&self) -> bool {
                 match self {
                     $(Self::$material(m) => m.is_connectable(),)*

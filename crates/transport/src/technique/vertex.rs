@@ -52,9 +52,11 @@ impl Vertex {
     /// The point as the lights know it: on a surface lit from the side from which the path came.
     #[inline]
     pub fn receiver(&self) -> Receiver {
+        let p = self.point.p;
         match &self.model {
-            Model::Surface(s) => Receiver::facing(self.point.p, s.n_g()),
-            Model::Medium { .. } => Receiver::all_round(self.point.p),
+            Model::Surface(s) if s.lets_through() => Receiver::lit_through(p, s.n_g()),
+            Model::Surface(s) => Receiver::facing(p, s.n_g()),
+            Model::Medium { .. } => Receiver::all_round(p),
         }
     }
 
@@ -69,10 +71,8 @@ impl Vertex {
     /// The same on the side to which a direction leads.
     #[inline]
     pub fn receiver_towards(&self, direction: Vec3) -> Receiver {
-        match &self.model {
-            Model::Surface(s) if direction.dot(s.n_g()) < 0.0 => Receiver::facing(self.point.p, -s.n_g()),
-            _ => self.receiver(),
-        }
+        let receiver = self.receiver();
+        if self.is_across(direction) { Receiver { n: -receiver.n, ..receiver } } else { receiver }
     }
 
     /// What turns a density in solid angle as seen from elsewhere, over squared distance, into that of this
