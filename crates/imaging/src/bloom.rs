@@ -25,7 +25,7 @@ impl Bloom {
         let [spectrum] =
             plane.spectra(|x, y| [columns[x.unsigned_abs() as usize] * rows[y.unsigned_abs() as usize]]);
         let weight = self.weight as f32;
-        window.convolve(image, &plane, [&spectrum; 3], |sharp, blurred| sharp + weight * blurred);
+        window.convolve(image, &plane, [&spectrum; 3], |_, sharp, blurred| sharp + weight * blurred);
     }
 }
 

@@ -9,7 +9,16 @@
 //! pictures that are even over each pixel, and leaves them as they are where light is not spread. Near the
 //! middle the integral is a sum over points of S; farther away S itself, averaged across the ray from
 //! the middle, on which alone it changes quickly.
+//!
+//! A super-sampled picture is convolved at the resolution of its output pixels, which takes a quarter of the
+//! time and memory or less. With B the mean over an output pixel's internal pixels, K the kernel of output
+//! pixels and w the part of the light that stays within its own internal pixel, the light of an internal pixel I
+//! becomes w I + (K ∗ B I - w B I): what leaves its internal pixel is even over the output pixel where it
+//! arrives. Its mean over an output pixel is K ∗ B I, as it should be; an even picture stays even; and since no part
+//! of K is less than that of w δ, nothing becomes negative. Edges between internal pixels stay as sharp as w says, for
+//! the tone mapping that follows at their resolution.
 
+mod output_pixels;
 mod spread;
 
 use crate::Region;
@@ -44,7 +53,9 @@ struct Prepared {
     plane: Plane,
     /// For X, Y and Z.
     spectra: [Spectrum; 3],
-    film: [u32; 2],
+    /// The part of X, Y and Z that stays in its internal pixel, where output pixels have several; else 0.
+    kept: [f32; 3],
+    film: FilmSize,
 }
 
 impl std::fmt::Debug for Prepared {
@@ -62,19 +73,23 @@ impl Diffraction {
 
     /// Memory that the first picture of a film of a size takes besides the film and the picture, in bytes.
     pub fn bytes_needed(size: FilmSize) -> u64 {
-        Plane::new(size.internal_width() as usize, size.internal_height() as usize).bytes_needed(3)
+        let means = size_of::<[f32; 4]>() as u64 + 1;
+        Plane::new(size.width() as usize, size.height() as usize).bytes_needed(3)
+            + means * size.pixels() as u64
     }
 
     /// Spreads the light of the internal pixels of a region.
     pub(crate) fn apply(&self, image: &mut XyzImage, region: Region) {
-        let film = [image.size.internal_width(), image.size.internal_height()];
-        let Some(window) = Window::of(image.size, region) else { return };
-        let Some(prepared) = self.prepared(window, film) else { return };
-        window.convolve(image, &prepared.plane, prepared.spectra.each_ref(), |_, spread| spread);
+        let Some(mut means) = output_pixels::means(image, region) else { return };
+        let Some(window) = Window::of(means.size, Region::whole(means.size)) else { return };
+        let Some(prepared) = self.prepared(window, image.size) else { return };
+        let Prepared { plane, spectra, kept, .. } = &*prepared;
+        window.convolve(&mut means, plane, spectra.each_ref(), |c, mean, spread| spread - kept[c] * mean);
+        output_pixels::add(image, region, *kept, &means);
     }
 
-    /// The kernels for a window of a film of some internal size; `None` where no light passes the pupil.
-    fn prepared(&self, window: Window, film: [u32; 2]) -> Option<Arc<Prepared>> {
+    /// The kernels for a window of output pixels of a film; `None` where no light passes the pupil.
+    fn prepared(&self, window: Window, film: FilmSize) -> Option<Arc<Prepared>> {
         let mut guard = self.prepared.lock().unwrap_or_else(PoisonError::into_inner);
         let serves = |p: &Arc<Prepared>| {
             (p.plane.width, p.plane.height, p.film) == (window.width, window.height, film)
@@ -84,10 +99,18 @@ impl Diffraction {
         } else {
             let field = self.field.get_or_init(|| self.pupil.far_field()).as_ref()?;
             let plane = Plane::new(window.width, window.height);
-            let cycle = [0, 1].map(|i| self.cycle_per_nm[i] * f64::from(film[i]));
-            let kernel = Kernel::new(field, [window.width, window.height], cycle);
+            let cycle_per_nm = self.cycle_per_nm;
+            let cycle = |[width, height]: [u32; 2]| {
+                [cycle_per_nm[0] * f64::from(width), cycle_per_nm[1] * f64::from(height)]
+            };
+            let kernel =
+                Kernel::new(field, [window.width, window.height], cycle([film.width(), film.height()]));
+            let kept = match film.super_sample() {
+                1 => [0.0; 3],
+                _ => kernel.kept(cycle([film.internal_width(), film.internal_height()])),
+            };
             let spectra = plane.spectra(|x, y| kernel.at(x, y));
-            guard.insert(0, Arc::new(Prepared { plane, spectra, film }));
+            guard.insert(0, Arc::new(Prepared { plane, spectra, kept, film }));
             guard.truncate(SIZES);
         }
         guard.first().map(Arc::clone)
@@ -108,7 +131,7 @@ impl Kernel {
     fn new(field: &FarField, [width, height]: [usize; 2], cycle: [f64; 2]) -> Self {
         let reach = (width as f64 / cycle[0]).hypot(height as f64 / cycle[1]);
         let mut spread = Spread::new(field, reach);
-        let near = near(&spread, cycle);
+        let near = near(&spread, cycle, NEAR);
         // Across the ray from the middle a pixel is as wide as its tent. Nearer offsets are not looked up.
         let nearest = NEAR as f64 / cycle[0].max(cycle[1]);
         let first = spread.ring_at(nearest).saturating_sub(1);
@@ -119,10 +142,15 @@ impl Kernel {
         Self { spread, cycle, near }
     }
 
+    /// The part of the light of even pixels that stays within them, a cycle being of some size in them.
+    fn kept(&self, cycle: [f64; 2]) -> [f32; 3] {
+        near(&self.spread, cycle, 0)[0].map(|v| v as f32)
+    }
+
     /// The kernels' values at an offset in pixels, columns to the right and rows down.
     fn at(&self, x: i64, y: i64) -> [f64; 3] {
         if x.abs().max(y.abs()) <= NEAR {
-            return self.near[near_index(x, y)];
+            return self.near[near_index(x, y, NEAR)];
         }
         let [cx, cy] = self.cycle;
         // Frequencies count upwards.
@@ -131,28 +159,28 @@ impl Kernel {
     }
 }
 
-/// Where the pixel at an offset stands among those round the middle.
-fn near_index(x: i64, y: i64) -> usize {
-    ((y + NEAR) * (2 * NEAR + 1) + x + NEAR) as usize
+/// Where the pixel at an offset stands among those up to `side` pixels from the middle.
+fn near_index(x: i64, y: i64, side: i64) -> usize {
+    ((y + side) * (2 * side + 1) + x + side) as usize
 }
 
-/// Sums points of the spread into the pixels round the middle.
-fn near(spread: &Spread, cycle: [f64; 2]) -> Vec<[f64; 3]> {
+/// Sums points of the spread into the pixels up to `side` pixels from the middle.
+fn near(spread: &Spread, cycle: [f64; 2], side: i64) -> Vec<[f64; 3]> {
     /// Rings that are summed by themselves: the order of the sums, and so their rounding, is always the same.
     const TOGETHER: usize = 16;
     // Tents reach one pixel beyond, squares to their corners.
-    let reach = (NEAR + 1) as f64;
+    let reach = (side + 1) as f64;
     let farthest = reach * (1.0 / cycle[0]).hypot(1.0 / cycle[1]);
     let sectors = spread.sectors(cycle, reach);
     let end = spread.ring_at(farthest) + 1;
-    let blank = || vec![[0.0; 3]; near_index(NEAR, NEAR) + 1];
+    let blank = || vec![[0.0; 3]; near_index(side, side, side) + 1];
     let parts: Vec<_> = (0..end.div_ceil(TOGETHER))
         .into_par_iter()
         .map(|i| {
             let mut part = blank();
             let rings = i * TOGETHER..end.min((i + 1) * TOGETHER);
             spread.for_each_point(rings, &sectors, SPACING, |[x, y], share| {
-                add_tent(&mut part, [x * cycle[0], y * cycle[1]], share);
+                add_tent(&mut part, side, [x * cycle[0], y * cycle[1]], share);
             });
             part
         })
@@ -167,15 +195,15 @@ fn near(spread: &Spread, cycle: [f64; 2]) -> Vec<[f64; 3]> {
 }
 
 /// Adds a point's share to the four pixels round it, by how near they are; offsets upwards.
-fn add_tent(near: &mut [[f64; 3]], [x, y]: [f64; 2], share: [f64; 3]) {
+fn add_tent(near: &mut [[f64; 3]], side: i64, [x, y]: [f64; 2], share: [f64; 3]) {
     let (i, j) = (x.floor(), y.floor());
     let (s, t) = (x - i, y - j);
     for (dx, dy, weight) in
         [(0, 0, (1.0 - s) * (1.0 - t)), (1, 0, s * (1.0 - t)), (0, 1, (1.0 - s) * t), (1, 1, s * t)]
     {
         let (x, y) = (i as i64 + dx, -(j as i64 + dy));
-        if x.abs().max(y.abs()) <= NEAR {
-            let pixel = &mut near[near_index(x, y)];
+        if x.abs().max(y.abs()) <= side {
+            let pixel = &mut near[near_index(x, y, side)];
             pixel.iter_mut().zip(share).for_each(|(v, share)| *v += weight * share);
         }
     }

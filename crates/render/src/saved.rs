@@ -1,6 +1,7 @@
 //! Films that outlive their session: what is said of them in a file, and how they are read back.
 
 use crate::disk::read_limited;
+use crate::pool::with_jobs;
 use indigo_film::igi::{self, IgiError};
 use indigo_film::{FilmRecord, Mismatch, SavedFilm};
 use indigo_scene::Scene;
@@ -48,7 +49,8 @@ pub(crate) fn lines(reasons: &[Mismatch]) -> String {
 pub fn read_film(path: &Path) -> Result<SavedFilm, FilmFileError> {
     let bytes =
         read_limited(path).map_err(|source| FilmFileError::Read { path: path.to_path_buf(), source })?;
-    igi::read(&bytes).map_err(|source| FilmFileError::Content { path: path.to_path_buf(), source })
+    with_jobs(usize::MAX, || igi::read(&bytes))
+        .map_err(|source| FilmFileError::Content { path: path.to_path_buf(), source })
 }
 
 /// Reads Indigo images and adds them, each to the first.

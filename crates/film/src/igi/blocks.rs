@@ -5,12 +5,15 @@
 
 use super::IgiError;
 use super::bytes::Bytes;
+use rayon::prelude::*;
 use std::io::{self, Write};
 
 /// Numbers of a block: half a mebibyte, which stays in a processor's cache.
 const BLOCK: usize = 1 << 16;
 /// Bytes of a number.
 const WIDTH: usize = 8;
+/// A block that is none.
+const CANNOT_UNPACK: IgiError = IgiError::Malformed("a block cannot be unpacked");
 
 /// Writes numbers; how many is the reader's to know.
 pub(super) fn write(out: &mut impl Write, mut values: impl ExactSizeIterator<Item = f64>) -> io::Result<()> {
@@ -31,32 +34,44 @@ pub(super) fn write(out: &mut impl Write, mut values: impl ExactSizeIterator<Ite
     Ok(())
 }
 
-/// Reads `n` numbers, all of which must be finite, in groups for `put`.
-pub(super) fn read(
-    bytes: &mut Bytes<'_>,
-    n: usize,
-    mut put: impl FnMut(&mut dyn Iterator<Item = f64>),
-) -> Result<(), IgiError> {
-    const WHAT: &str = "a block of sums";
-    let mut planes = Vec::new();
-    let mut left = n;
-    while left > 0 {
-        let n = left.min(BLOCK);
-        let length = bytes.u32(WHAT)? as usize;
-        let packed = bytes.take(length, WHAT)?;
-        planes.resize(n * WIDTH, 0);
-        let unpacked = lz4_flex::block::decompress_into(packed, &mut planes);
-        if unpacked.ok() != Some(planes.len()) {
-            return Err(IgiError::Malformed("a block cannot be unpacked"));
-        }
-        let value = |i: usize| f64::from_le_bytes(std::array::from_fn(|plane| planes[plane * n + i]));
-        if !(0..n).all(|i| value(i).is_finite()) {
-            return Err(IgiError::Malformed("a sum is not finite"));
-        }
-        put(&mut (0..n).map(value));
-        left -= n;
+/// Blocks of a file, not unpacked yet.
+pub(super) struct Packed<'a>(Vec<&'a [u8]>);
+
+impl<'a> Packed<'a> {
+    /// The next blocks, of `n` numbers in all.
+    pub fn take(bytes: &mut Bytes<'a>, n: usize) -> Result<Self, IgiError> {
+        const WHAT: &str = "a block of sums";
+        let mut block = || {
+            let length = bytes.u32(WHAT)? as usize;
+            bytes.take(length, WHAT)
+        };
+        (0..n.div_ceil(BLOCK)).map(|_| block()).collect::<Result<_, _>>().map(Self)
     }
-    Ok(())
+
+    /// Unpacks as many numbers as were asked for, all of which must be finite, on the caller's rayon pool.
+    pub fn unpack(self, values: &mut [f64]) -> Result<(), IgiError> {
+        let blocks = values.par_chunks_mut(BLOCK).zip(self.0);
+        blocks.try_for_each_init(Vec::new, |planes, (values, packed)| unpack(packed, planes, values))
+    }
+}
+
+/// Unpacks a block; `planes` is room for its bytes.
+fn unpack(packed: &[u8], planes: &mut Vec<u8>, values: &mut [f64]) -> Result<(), IgiError> {
+    let n = values.len();
+    planes.resize(n * WIDTH, 0);
+    if lz4_flex::block::decompress_into(packed, planes).ok() != Some(n * WIDTH) {
+        return Err(CANNOT_UNPACK);
+    }
+    // Equal lengths, seen by the compiler: no check for each byte.
+    let planes: [&[u8]; WIDTH] = std::array::from_fn(|plane| &planes[plane * n..][..n]);
+    for (i, value) in values.iter_mut().enumerate() {
+        *value = f64::from_le_bytes(planes.map(|plane| plane[i]));
+    }
+    if values.iter().all(|v| v.is_finite()) {
+        Ok(())
+    } else {
+        Err(IgiError::Malformed("a sum is not finite"))
+    }
 }
 
 #[cfg(test)]
@@ -69,9 +84,8 @@ mod tests {
             let values: Vec<f64> = (0..n).map(|i| (i as f64 * 0.37).sin() * 1e3 - 0.0).collect();
             let mut file = Vec::new();
             write(&mut file, values.iter().copied()).unwrap();
-            let mut back = Vec::new();
-            let mut bytes = Bytes(&file);
-            read(&mut bytes, n, |block| back.extend(block)).unwrap();
+            let (mut bytes, mut back) = (Bytes(&file), vec![0.0; n]);
+            Packed::take(&mut bytes, n).unwrap().unpack(&mut back).unwrap();
             assert_eq!(values, back);
             assert!(bytes.0.is_empty());
         }
@@ -81,7 +95,20 @@ mod tests {
     fn what_is_not_a_number_is_refused() {
         let mut file = Vec::new();
         write(&mut file, [1.0, f64::NAN].into_iter()).unwrap();
-        let read = read(&mut Bytes(&file), 2, |_| {});
+        let read = Packed::take(&mut Bytes(&file), 2).unwrap().unpack(&mut [0.0; 2]);
         assert_eq!(read, Err(IgiError::Malformed("a sum is not finite")));
+    }
+
+    #[test]
+    fn missing_and_broken_blocks_are_refused() {
+        let mut file = Vec::new();
+        write(&mut file, vec![1.5; BLOCK + 3].into_iter()).unwrap();
+        let short = &file[..file.len() - 1];
+        assert!(matches!(Packed::take(&mut Bytes(short), BLOCK + 3), Err(IgiError::Truncated(_))));
+        // One number fewer or more than the last block holds.
+        for n in [BLOCK + 2, BLOCK + 4] {
+            let packed = Packed::take(&mut Bytes(&file), n).unwrap();
+            assert_eq!(packed.unpack(&mut vec![0.0; n]), Err(CANNOT_UNPACK));
+        }
     }
 }

@@ -1,12 +1,13 @@
 //! Reading a film, with nothing in the file believed.
 
+use super::blocks::Packed;
 use super::bytes::Bytes;
+use super::foreign;
 use super::{HASH, IMAGE, IgiError, MAGIC, MARK, MAX_LAYERS, PADDING, SECTION_VERSION, VERSION};
-use super::{blocks, foreign};
 use crate::record::{FilmRecord, Run, SavedFilm};
 use crate::{FilmSize, FilmState, Layer, LayerKind, Totals};
 
-/// Reads an Indigo image, of this program or another.
+/// Reads an Indigo image, of this program or another. Runs on the caller's rayon pool.
 ///
 /// # Errors
 /// See [`IgiError`]: no content of a file is taken on trust.
@@ -31,9 +32,15 @@ fn read_own(file: &[u8]) -> Result<SavedFilm, IgiError> {
     }
     let (content, hash) =
         file.len().checked_sub(HASH).map(|n| file.split_at(n)).ok_or(IgiError::Truncated("the header"))?;
-    if blake3::hash(content).as_bytes() != hash {
+    let (found, film) = rayon::join(|| blake3::hash(content), || read_content(content));
+    if found.as_bytes() != hash {
         return Err(IgiError::Checksum);
     }
+    film
+}
+
+/// Reads a file with the mark, without the hash at its end, which nobody has looked at yet.
+fn read_content(content: &[u8]) -> Result<SavedFilm, IgiError> {
     let size = own_size(content)?;
     let mut bytes = Bytes(content);
     bytes.take(IMAGE, "the header")?;
@@ -108,16 +115,13 @@ fn read_layer(bytes: &mut Bytes<'_>, size: FilmSize) -> Result<Layer, IgiError> 
         return Err(IgiError::Malformed("a number of samples is negative or not finite"));
     }
     let pixels = size.internal_pixels();
-    // Nothing is set aside beyond what has been unpacked.
-    let mut sums: Vec<[f64; 4]> = Vec::new();
-    blocks::read(bytes, 4 * pixels, |block| {
-        while let Some(x) = block.next() {
-            let mut next = || block.next().unwrap_or_default();
-            sums.push([x, next(), next(), next()]);
-        }
-    })?;
-    let mut counts = Vec::new();
-    blocks::read(bytes, kind.count_slots(pixels), |block| counts.extend(block))?;
+    // What is missing is noticed before room is made for it.
+    let packed = Packed::take(bytes, 4 * pixels)?;
+    let mut sums = vec![[0.0; 4]; pixels];
+    packed.unpack(sums.as_flattened_mut())?;
+    let packed = Packed::take(bytes, kind.count_slots(pixels))?;
+    let mut counts = vec![0.0; kind.count_slots(pixels)];
+    packed.unpack(&mut counts)?;
     if counts.iter().any(|&n| n < 0.0) {
         return Err(IgiError::Malformed("a pixel has a negative number of samples"));
     }

@@ -205,6 +205,47 @@ fn only_the_region_is_touched() {
     assert!(changed > 900, "{changed}");
 }
 
+/// A lamp of one internal pixel: each output pixel gets what theory says that it gets of light that was even over the
+/// lamp's own, nothing is negative, and an even picture stays even.
+#[test]
+fn super_sampled_pictures_have_the_right_means() {
+    let (side, factor) = (40u32, 3u32);
+    let size = FilmSize::new(side, side, factor).unwrap();
+    let cycle_per_nm = [0.7 / 550.0 / f64::from(side); 2];
+    let diffraction = Diffraction::new(
+        Pupil::new(Aperture::generated(&Blades::new(5, 0.3, 0.4, 1e3).unwrap()), None),
+        cycle_per_nm,
+    );
+    let with = |light: &dyn Fn(usize, usize) -> f32| {
+        let wide = (side * factor) as usize;
+        let pixels: Vec<[f32; 4]> = (0..wide * wide).map(|i| [light(i % wide, i / wide); 4]).collect();
+        let mut image = XyzImage { size, missing: vec![false; pixels.len()], pixels };
+        diffraction.apply(&mut image, Region::whole(size));
+        image
+    };
+    let lamp = with(&|x, y| if (x, y) == (61, 58) { 9.0 } else { 0.0 });
+    let kernel = Kernel::new(&blades(5, 0.3), [40, 40], [0.7 / 550.0; 2]);
+    let outside = |c: usize| {
+        let offsets = (0..40).flat_map(|y| (0..40).map(move |x| (x - 20, y - 19)));
+        1.0 - offsets.map(|(x, y)| kernel.at(x, y)[c]).sum::<f64>()
+    };
+    for (x, y) in (0..40usize).flat_map(|y| (0..40).map(move |x| (x, y))) {
+        for c in 0..3 {
+            let block = (0..9).map(|i| lamp.pixels[(3 * y + i / 3) * 120 + 3 * x + i % 3][c]);
+            let mean = block.clone().map(f64::from).sum::<f64>() / 9.0;
+            let own = if (x, y) == (20, 19) { outside(c) } else { 0.0 };
+            let want = kernel.at(x as i64 - 20, y as i64 - 19)[c] + own;
+            assert!((mean - want).abs() < 1e-6, "{x} {y} {c}: {mean} instead of {want}");
+            assert!(block.clone().all(|v| v >= -1e-6), "{x} {y}");
+        }
+    }
+    // The light that stays is in the lamp's own pixel.
+    let [own, beside] = [61, 62].map(|x| lamp.pixels[58 * 120 + x][1]);
+    assert!(own - beside > 1.0, "{own} {beside}");
+    let even = with(&|_, _| 3.0);
+    assert!(even.pixels.iter().flatten().all(|v| (v - 3.0).abs() < 1e-5));
+}
+
 /// Kernels of the two sizes used last are made once.
 #[test]
 fn two_sizes_are_held() {
@@ -212,7 +253,7 @@ fn two_sizes_are_held() {
     let prepared = |side: u32| {
         let size = FilmSize::new(side, side, 1).unwrap();
         let window = Window::of(size, Region::whole(size)).unwrap();
-        diffraction.prepared(window, [side, side]).unwrap()
+        diffraction.prepared(window, size).unwrap()
     };
     let [a, b] = [8, 12].map(prepared);
     assert!(Arc::ptr_eq(&a, &prepared(8)) && Arc::ptr_eq(&b, &prepared(12)));
