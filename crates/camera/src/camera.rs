@@ -61,6 +61,11 @@ impl Camera {
         CameraRay::new(self.lens.ray(film, self.aperture.sample(lens)), Vec2::new(0.0, 0.0), LanePdf::ONE)
     }
 
+    /// Whether [`sample`](Self::sample) sends rays elsewhere than [`ray`](Self::ray).
+    pub fn deflects(&self) -> bool {
+        self.deflection.is_some()
+    }
+
     /// [`ray`](Self::ray) with what diffraction does to it, for two more numbers in [0, 1) and the
     /// wavelengths of the path.
     #[inline]

@@ -70,7 +70,8 @@ pub static CAMERA: Block = Block::new(
             "exposure_duration",
             Kind::Real,
             Presence::Default("0.01"),
-            "How long the shutter is open. Used by the tone mapping `linear` and `camera`.",
+            "How long the shutter is open. Used by the tone mapping `linear` and `camera`: the exposure of the sensor is \
+             luminance times the open area of the aperture over the square of `lens_sensor_dist`, times this.",
         )
         .unit("s")
         .range(Range::Above(0.0)),
@@ -104,7 +105,8 @@ pub static CAMERA: Block = Block::new(
             "aperture_shape",
             Kind::Block(&APERTURE_SHAPE),
             Presence::Optional,
-            "The shape of the aperture: a circle where it is missing.",
+            "The shape of the aperture: a circle where it is missing. Its open area sets the exposure (see \
+             `exposure_duration`).",
         ),
     ],
 )

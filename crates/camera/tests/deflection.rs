@@ -3,6 +3,7 @@
 use indigo_camera::{Aperture, Blades, Camera, FarField, Pupil, ThinLens, ThinLensParameters};
 use indigo_math::{Float, Real, Vec2, Vec3d};
 use indigo_spectrum::{LANES, SampledWavelengths};
+use indigo_testkit::fit::lowest_point;
 use indigo_testkit::rng::Rng;
 use indigo_testkit::stats::Moments;
 use indigo_testkit::ztest::mean_against;
@@ -72,6 +73,95 @@ fn offsets_have_the_distances_of_the_far_field_in_every_lane() {
         assert_mean(&camera, &format!("beyond {r}"), field.beyond(r), |x, y| {
             f64::from(u8::from(x.hypot(y) > r))
         });
+    }
+}
+
+/// The picture of a lamp by deflected rays, pixel by pixel: since the pattern is the same all over the film, a ray that is
+/// deflected by an offset shows the lamp at a pixel that lies by as much beside it. `lamp` gives a point of it in pixels;
+/// `to_pixels` brings an offset in metres at a wavelength to pixels from the middle.
+fn picture(
+    camera: &Camera,
+    side: usize,
+    n: u32,
+    mut lamp: impl FnMut(&mut Rng) -> [f64; 2],
+    to_pixels: impl Fn([f64; 2], f64) -> [f64; 2],
+) -> Vec<f64> {
+    let mut rng = Rng::new(21);
+    let mut pixels = vec![0.0; side * side];
+    for _ in 0..n {
+        let lambda = SampledWavelengths::sample(rng.uniform_f32() as Real);
+        let ray = camera.sample(Vec2::new(0.5, 0.5), random(&mut rng), random(&mut rng), &lambda);
+        let metres = [ray.offset.x.to_f64() * WIDTH, -ray.offset.y.to_f64() * WIDTH];
+        let of_lamp = lamp(&mut rng);
+        for lane in 0..LANES {
+            let offset = to_pixels(metres, lambda.lambda[lane].to_f64());
+            let [x, y] = [0, 1].map(|a| (offset[a] + of_lamp[a] + side as f64 / 2.0).floor());
+            let inside = 0.0..side as f64;
+            if inside.contains(&x) && inside.contains(&y) {
+                pixels[y as usize * side + x as usize] += (ray.ratio[lane] / ray.ratio.mean()).to_f64();
+            }
+        }
+    }
+    pixels
+}
+
+/// Distance from the middle of a picture's pixel, and its direction in turns.
+fn polar(i: usize, side: usize) -> [f64; 2] {
+    let [x, y] = [i % side, i / side].map(|v| v as f64 + 0.5 - side as f64 / 2.0);
+    [x.hypot(y), (y.atan2(x) / std::f64::consts::TAU).rem_euclid(1.0)]
+}
+
+/// The first two dark rings of a point in the picture lie at the zeros of J1 over π cycles; sixteen pixels are a
+/// cycle of each wavelength.
+#[test]
+fn the_pictures_rings_have_their_radii() {
+    let (camera, _) = camera(&Aperture::Circular);
+    let (side, scale) = (96, 16.0);
+    let picture = picture(
+        &camera,
+        side,
+        2_000_000,
+        |_| [0.0; 2],
+        |metres, lambda| metres.map(|m| scale * m / (1e-9 * lambda * DISTANCE / (2.0 * RADIUS))),
+    );
+    for radius in [1.21967, 2.23313] {
+        // r³ takes out that rings become darker with the distance.
+        let points = picture.iter().enumerate().map(|(i, v)| {
+            let [r, _] = polar(i, side);
+            (r, r.powi(3) * v)
+        });
+        let found = lowest_point(points, radius * scale, 0.2 * scale).expect("a dark ring") / scale;
+        assert!((found / radius - 1.0).abs() < 0.02, "dark at {found} cycles instead of {radius}");
+    }
+}
+
+/// The sun, in white light: a disc four pixels wide, with streaks across each edge of the opening to both sides.
+#[test]
+fn the_sun_has_as_many_streaks_as_its_aperture() {
+    for (n, count) in [(5, 10), (6, 6), (7, 14)] {
+        let blades = Blades::new(n, 0.1, 0.4, 1e6).expect("an opening");
+        let (camera, _) = camera(&Aperture::generated(&blades));
+        let side = 128;
+        let disc = |rng: &mut Rng| {
+            let (r, phi) = (2.0 * rng.uniform().sqrt(), std::f64::consts::TAU * rng.uniform());
+            [r * phi.cos(), r * phi.sin()]
+        };
+        // A pixel is a cycle of green light wide.
+        let pixel = 550e-9 * DISTANCE / (2.0 * RADIUS);
+        let sun = picture(&camera, side, 1_000_000, disc, |metres, _| metres.map(|m| m / pixel));
+        let mut bins = [0.0; 120];
+        for (i, v) in sun.iter().enumerate() {
+            let [r, turn] = polar(i, side);
+            if (24.0..60.0).contains(&r) {
+                bins[(turn * 120.0) as usize % 120] += v;
+            }
+        }
+        let mean = bins.iter().sum::<f64>() / 120.0;
+        let is_peak = |i: usize| {
+            bins[i] > 1.5 * mean
+                && (1..4).all(|k| bins[i] >= bins[(i + k) % 120] && bins[i] > bins[(i + 120 - k) % 120])
+        };
+        assert_eq!((0..120).filter(|&i| is_peak(i)).count(), count, "{n} blades: {bins:?}");
     }
 }
 

@@ -22,6 +22,9 @@ static INTERRUPTS: AtomicUsize = AtomicUsize::new(0);
 /// How often the progress line is renewed on a terminal, where it costs no room. Elsewhere the setting
 /// `display_period` decides how often a line is written.
 const ON_TERMINAL: Duration = Duration::from_millis(250);
+/// The least time between lines of progress elsewhere, however small the setting: ten a second say all that can be read, and
+/// a log is not flooded.
+const LEAST_BETWEEN_LINES: Duration = Duration::from_millis(100);
 
 /// Number of logical cores.
 pub fn logical_cores() -> usize {
@@ -38,6 +41,10 @@ pub fn render(scene: Scene, arguments: &Arguments, named: Option<PathBuf>, conso
         Ok(saved) => saved,
         Err(error) => return films::fail(&error, console),
     };
+    // Before anything is written.
+    if let Some(Err(error)) = saved.as_ref().map(|saved| Session::check(&scene, saved)) {
+        return fail(&error, console);
+    }
     let picture = match Picture::new(named, &scene, arguments, console) {
         Ok(picture) => picture,
         Err(error) => {
@@ -77,11 +84,14 @@ pub fn render(scene: Scene, arguments: &Arguments, named: Option<PathBuf>, conso
             describe_film(arguments.resume.as_deref(), saved, console);
             follow(session, &job, console)
         }
-        Err(error) => {
-            console.say(&format!("error: {error}"));
-            if matches!(error, SessionError::Mismatch(_)) { BAD_INPUT } else { FAILED }
-        }
+        Err(error) => fail(&error, console),
     }
+}
+
+/// Says why there is no session; the exit status.
+fn fail(error: &SessionError, console: &mut Console) -> u8 {
+    console.say(&format!("error: {error}"));
+    if matches!(error, SessionError::Mismatch(_)) { BAD_INPUT } else { FAILED }
 }
 
 /// Where the picture goes.
@@ -220,7 +230,11 @@ fn follow(mut session: Session, job: &SaveJob, console: &mut Console) -> u8 {
     let period = seconds(output.image_save_period);
     let mut saver = Saver { job, period, saving: None, last: Instant::now(), announced: false, failures: 0 };
     let mut last_line: Option<Instant> = None;
-    let between = if console.is_terminal() { ON_TERMINAL } else { seconds(output.display_period) };
+    let between = if console.is_terminal() {
+        ON_TERMINAL
+    } else {
+        seconds(output.display_period).max(LEAST_BETWEEN_LINES)
+    };
     loop {
         match session.wait(ON_TERMINAL.min(between).min(saver.until_due())) {
             Event::Progress(progress) => {

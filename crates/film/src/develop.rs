@@ -2,6 +2,7 @@
 
 use crate::FilmSize;
 use crate::band::BAND_ROWS;
+use indigo_math::pages::fresh;
 use rayon::prelude::*;
 
 /// A film developed, at internal resolution.
@@ -26,7 +27,7 @@ impl XyzImage {
         counted: bool,
         develop: impl Fn(usize, &mut [[f32; 4]], &mut [bool]) + Sync,
     ) -> Self {
-        let mut pixels = vec![[0.0; 4]; size.internal_pixels()];
+        let mut pixels = fresh(vec![[0.0; 4]; size.internal_pixels()]);
         let mut missing = vec![counted; size.internal_pixels()];
         let band_pixels = BAND_ROWS * size.internal_width() as usize;
         pixels

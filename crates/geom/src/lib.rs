@@ -13,7 +13,6 @@ mod build;
 mod cache;
 mod mesh;
 mod object;
-mod pages;
 mod ray;
 mod shapes;
 mod soup;

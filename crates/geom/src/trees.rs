@@ -4,11 +4,11 @@ use crate::accel::{BuildError, BuildOptions, Stats};
 use crate::cache::load_or_build;
 use crate::mesh::TriangleMesh;
 use crate::object::Object;
-use crate::pages::in_huge_pages;
 use crate::soup::{Soup, bake};
 use crate::store::TreeStore;
 use crate::top::{TopItem, build_top, open, sphere_box, transformed_box};
 use crate::wide::{Block, Box3, Child, Node};
+use indigo_math::pages::in_huge_pages;
 
 /// What a leaf without triangles stands for.
 #[derive(Clone, Copy, Debug)]

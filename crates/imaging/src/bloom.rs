@@ -2,7 +2,8 @@
 //! computes what it imitates.
 
 use crate::Region;
-use crate::convolution::{Plane, Window};
+use crate::convolution::Plane;
+use crate::window::Window;
 use indigo_film::XyzImage;
 
 /// A glow round bright spots.
@@ -17,7 +18,10 @@ pub struct Bloom {
 impl Bloom {
     /// Adds the glow to the internal pixels of a region.
     pub(crate) fn apply(&self, image: &mut XyzImage, region: Region) {
-        let Some(window) = Window::of(image.size, region) else { return };
+        let window = Window::of(image.size, region);
+        if window.is_empty() {
+            return;
+        }
         let longer = image.size.internal_width().max(image.size.internal_height());
         let plane = Plane::new(window.width, window.height);
         let sigma = self.radius * f64::from(longer);
@@ -25,7 +29,7 @@ impl Bloom {
         let [spectrum] =
             plane.spectra(|x, y| [columns[x.unsigned_abs() as usize] * rows[y.unsigned_abs() as usize]]);
         let weight = self.weight as f32;
-        window.convolve(image, &plane, [&spectrum; 3], |_, sharp, blurred| sharp + weight * blurred);
+        plane.convolve(image, window, [&spectrum; 3], |_, sharp, blurred| sharp + weight * blurred);
     }
 }
 

@@ -12,8 +12,9 @@
 //! All is done in double precision: a lamp may be 10⁹ times as bright as its surroundings, and the
 //! rounding of single precision would cover those with a veil of noise.
 
-use crate::Region;
-use indigo_film::{FilmSize, XyzImage};
+use crate::window::Window;
+use indigo_film::XyzImage;
+use indigo_math::pages;
 use rayon::prelude::*;
 use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
@@ -41,7 +42,6 @@ pub(crate) struct Plane {
 
 /// What a convolution needs room for; kept from one component to the next, since fresh memory costs as much
 /// time as using it.
-#[derive(Default)]
 struct Room {
     rows: Vec<Complex<f64>>,
     columns: Vec<Complex<f64>>,
@@ -55,54 +55,37 @@ pub(crate) struct Spectrum {
     outside: Vec<f32>,
 }
 
-/// The internal pixels of a region of a picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Window {
-    pub left: usize,
-    pub top: usize,
-    pub width: usize,
-    pub height: usize,
-}
-
-impl Window {
-    /// Of a region; `None` where that is empty.
-    pub fn of(size: FilmSize, region: Region) -> Option<Self> {
-        let factor = size.super_sample() as usize;
-        let [x1, y1] = region.start().map(|v| v as usize * factor);
-        let [x2, y2] = region.end().map(|v| v as usize * factor);
-        (x1 < x2 && y1 < y2).then(|| Self { left: x1, top: y1, width: x2 - x1, height: y2 - y1 })
-    }
-
-    /// Convolves X, Y and Z of the pixels, each with its kernel; `blend` makes the new value of the component's
-    /// number, the old value and the convolved one.
+impl Plane {
+    /// Convolves X, Y and Z of a window of the plane's size, each with its kernel; `blend` makes the new value of the
+    /// component's number, the old value and the convolved one.
     pub fn convolve(
         &self,
         image: &mut XyzImage,
-        plane: &Plane,
+        window: Window,
         kernels: [&Spectrum; 3],
         blend: impl Fn(usize, f32, f32) -> f32 + Sync,
     ) {
-        let stride = image.size.internal_width() as usize;
-        let mut room = Room::default();
+        let transformed = || pages::filled(Complex::default(), self.height * self.kept());
+        let mut room = Room {
+            rows: transformed(),
+            columns: transformed(),
+            out: pages::fresh(vec![0.0; self.width * self.height]),
+        };
         for (component, kernel) in kernels.into_iter().enumerate() {
-            let pixels = &image.pixels;
-            plane.convolve(kernel, &mut room, |y, row| {
-                let from = &pixels[(self.top + y) * stride + self.left..];
+            self.convolve_rows(kernel, &mut room, |y, row| {
+                let from = window.row(image, y);
                 row.iter_mut().zip(from).for_each(|(v, p)| *v = f64::from(p[component]));
             });
-            let rows = image.pixels.par_chunks_exact_mut(stride).skip(self.top);
             let convolved =
                 room.out.par_chunks_exact(self.width).zip(kernel.outside.par_chunks_exact(self.width));
-            rows.zip(convolved).for_each(|(row, (from, outside))| {
-                for (p, (&v, outside)) in row[self.left..].iter_mut().zip(from.iter().zip(outside)) {
+            window.rows_mut(image).zip(convolved).for_each(|(row, (from, outside))| {
+                for (p, (&v, outside)) in row.iter_mut().zip(from.iter().zip(outside)) {
                     p[component] = blend(component, p[component], v + outside * p[component]);
                 }
             });
         }
     }
-}
 
-impl Plane {
     /// For pictures of a size, none of whose sides is 0.
     pub fn new(width: usize, height: usize) -> Self {
         let (columns, rows) = (smooth(2 * width - 1), smooth(2 * height - 1));
@@ -140,8 +123,8 @@ impl Plane {
     pub fn spectra<const N: usize>(&self, kernels: impl Fn(i64, i64) -> [f64; N] + Sync) -> [Spectrum; N] {
         let (kept, reach) = (self.kept(), self.width as i64 - 1);
         // Row after row, in each of them kernel after kernel.
-        let mut rows = vec![Complex::default(); N * kept * self.height];
-        let mut sums = vec![0.0; N * self.width * self.height];
+        let mut rows = pages::filled(Complex::default(), N * kept * self.height);
+        let mut sums = pages::fresh(vec![0.0; N * self.width * self.height]);
         let chunks = rows.par_chunks_mut(N * kept).zip(sums.par_chunks_mut(N * self.width));
         chunks.enumerate().for_each_init(
             || (self.forward_row.make_input_vec(), self.forward_row.make_scratch_vec()),
@@ -174,7 +157,7 @@ impl Plane {
     /// Kernel `c` of `n`: the columns' transforms, from those of the rows from the middle down.
     fn kernel_columns(&self, rows: &[Complex<f64>], n: usize, c: usize) -> Vec<f64> {
         let half = self.rows / 2 + 1;
-        let mut values = vec![0.0; self.kept() * self.rows];
+        let mut values = pages::fresh(vec![0.0; self.kept() * self.rows]);
         values.par_chunks_mut(BATCH * self.rows).enumerate().for_each_init(
             || (vec![Complex::default(); BATCH * half], self.kernel_column.make_scratch_vec()),
             |(buffer, scratch), (batch, out)| {
@@ -210,11 +193,10 @@ impl Plane {
     }
 
     /// The picture whose row `y` is written by `fill`, in darkness, convolved; left in the room, row after row.
-    fn convolve(&self, kernel: &Spectrum, room: &mut Room, fill: impl Fn(usize, &mut [f64]) + Sync) {
+    fn convolve_rows(&self, kernel: &Spectrum, room: &mut Room, fill: impl Fn(usize, &mut [f64]) + Sync) {
         self.transform_rows(&mut room.rows, fill);
         self.filter_columns(&room.rows, kernel, &mut room.columns);
         let columns = &room.columns;
-        room.out.resize(self.width * self.height, 0.0);
         let scale = 1.0 / (self.columns * self.rows) as f64;
         let chunks = room.out.par_chunks_mut(BATCH * self.width);
         chunks.enumerate().for_each_init(
@@ -244,8 +226,7 @@ impl Plane {
     }
 
     /// The transforms of the picture's rows, with darkness beside them.
-    fn transform_rows(&self, rows: &mut Vec<Complex<f64>>, fill: impl Fn(usize, &mut [f64]) + Sync) {
-        rows.resize(self.height * self.kept(), Complex::default());
+    fn transform_rows(&self, rows: &mut [Complex<f64>], fill: impl Fn(usize, &mut [f64]) + Sync) {
         rows.par_chunks_mut(self.kept()).enumerate().for_each_init(
             || (self.forward_row.make_input_vec(), self.forward_row.make_scratch_vec()),
             |(input, scratch), (y, out)| {
@@ -260,8 +241,7 @@ impl Plane {
 
     /// Transforms columns, multiplies them with the kernel's and transforms them back: the picture's
     /// part of each, column after column.
-    fn filter_columns(&self, rows: &[Complex<f64>], kernel: &Spectrum, columns: &mut Vec<Complex<f64>>) {
-        columns.resize(self.kept() * self.height, Complex::default());
+    fn filter_columns(&self, rows: &[Complex<f64>], kernel: &Spectrum, columns: &mut [Complex<f64>]) {
         let scratch =
             self.forward_column.get_inplace_scratch_len().max(self.inverse_column.get_inplace_scratch_len());
         columns.par_chunks_mut(BATCH * self.height).enumerate().for_each_init(

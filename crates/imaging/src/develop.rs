@@ -3,6 +3,7 @@
 use crate::downsize::{downsize, extent};
 use crate::tonemap::ToneMapper;
 use crate::white_balance::plain_rgb;
+use crate::window::Window;
 use crate::{LinearImage, Picture, PictureSettings, Region, watermark};
 use indigo_film::{FilmError, FilmSize, FilmState, Filter, XyzImage};
 use indigo_spectrum::adaptation;
@@ -41,13 +42,13 @@ pub fn develop_image(image: &XyzImage, settings: &PictureSettings) -> Picture {
         }
         _ => image,
     };
-    let window = Window::new(image, region);
+    let window = Window::of(size, region);
     let mut pixels = if settings.foreground_alpha {
-        downsize(size, region, settings.downsize, |y, out| coverage_row(window.row(y), out))
+        downsize(size, region, settings.downsize, |y, out| coverage_row(window.row(image, y), out))
     } else {
-        let mapper = ToneMapper::new(settings, window.rows());
+        let mapper = ToneMapper::new(settings, window.rows(image));
         downsize(size, region, settings.downsize, |y, out| {
-            mapper.map_row(window.row(y), out);
+            mapper.map_row(window.row(image, y), out);
             clamp(out);
         })
     };
@@ -65,9 +66,9 @@ pub fn develop_image(image: &XyzImage, settings: &PictureSettings) -> Picture {
 pub fn untonemapped(image: &XyzImage, filter: Filter, region: Option<Region>) -> LinearImage {
     let size = image.size;
     let region = self::region(size, region);
-    let window = Window::new(image, region);
+    let window = Window::of(size, region);
     // The matrix is linear like the filter: apply it to the few pixels that are left.
-    let mut pixels = downsize(size, region, filter, |y, out| out.copy_from_slice(window.row(y)));
+    let mut pixels = downsize(size, region, filter, |y, out| out.copy_from_slice(window.row(image, y)));
     let matrix = plain_rgb();
     pixels.par_iter_mut().for_each(|pixel| {
         let [r, g, b] = matrix.apply(pixel);
@@ -84,33 +85,6 @@ pub fn from_linear(image: &LinearImage) -> Result<XyzImage, FilmError> {
         [x, y, z, alpha]
     });
     Ok(XyzImage { size, pixels: pixels.collect(), missing: vec![false; size.pixels()] })
-}
-
-/// The internal pixels of a region.
-struct Window<'a> {
-    image: &'a XyzImage,
-    first_row: usize,
-    last_row: usize,
-    columns: std::ops::Range<usize>,
-}
-
-impl<'a> Window<'a> {
-    fn new(image: &'a XyzImage, region: Region) -> Self {
-        let factor = image.size.super_sample() as usize;
-        let internal = |v: u32| v as usize * factor;
-        let ([x1, y1], [x2, y2]) = (region.start(), region.end());
-        Self { image, first_row: internal(y1), last_row: internal(y2), columns: internal(x1)..internal(x2) }
-    }
-
-    /// Row `y`, counted from the region's top.
-    fn row(&self, y: usize) -> &'a [[f32; 4]] {
-        let start = (self.first_row + y) * self.image.size.internal_width() as usize;
-        &self.image.pixels[start + self.columns.start..start + self.columns.end]
-    }
-
-    fn rows(&self) -> impl IndexedParallelIterator<Item = &'a [[f32; 4]]> + '_ {
-        (0..self.last_row - self.first_row).into_par_iter().map(|y| self.row(y))
-    }
 }
 
 /// Coverage by the foreground as grey.

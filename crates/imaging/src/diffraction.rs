@@ -22,7 +22,8 @@ mod output_pixels;
 mod spread;
 
 use crate::Region;
-use crate::convolution::{Plane, Spectrum, Window};
+use crate::convolution::{Plane, Spectrum};
+use crate::window::Window;
 use indigo_camera::{FarField, Pupil};
 use indigo_film::{FilmSize, XyzImage};
 use rayon::prelude::*;
@@ -81,10 +82,10 @@ impl Diffraction {
     /// Spreads the light of the internal pixels of a region.
     pub(crate) fn apply(&self, image: &mut XyzImage, region: Region) {
         let Some(mut means) = output_pixels::means(image, region) else { return };
-        let Some(window) = Window::of(means.size, Region::whole(means.size)) else { return };
+        let window = Window::of(means.size, Region::whole(means.size));
         let Some(prepared) = self.prepared(window, image.size) else { return };
         let Prepared { plane, spectra, kept, .. } = &*prepared;
-        window.convolve(&mut means, plane, spectra.each_ref(), |c, mean, spread| spread - kept[c] * mean);
+        plane.convolve(&mut means, window, spectra.each_ref(), |c, mean, spread| spread - kept[c] * mean);
         output_pixels::add(image, region, *kept, &means);
     }
 

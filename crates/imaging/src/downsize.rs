@@ -2,6 +2,7 @@
 
 use crate::Region;
 use indigo_film::{FilmSize, Filter};
+use indigo_math::pages::fresh;
 use rayon::prelude::*;
 
 /// The least mass of a filter cut off by the border by which its weights are divided. Parameters
@@ -25,7 +26,7 @@ pub(crate) fn downsize(
         return Vec::new();
     }
     // Along the rows first, so that only narrow rows need to be kept.
-    let mut narrow = vec![[0.0; 4]; width * height * factor];
+    let mut narrow = fresh(vec![[0.0; 4]; width * height * factor]);
     narrow.par_chunks_mut(width).enumerate().for_each_init(
         || vec![[0.0; 4]; width * factor],
         |wide, (y, row)| {
@@ -33,7 +34,7 @@ pub(crate) fn downsize(
             columns.filter_row(wide, row);
         },
     );
-    let mut out = vec![[0.0; 4]; width * height];
+    let mut out = fresh(vec![[0.0; 4]; width * height]);
     out.par_chunks_mut(width).enumerate().for_each(|(y, row)| rows.sum_rows(y, &narrow, row));
     out
 }

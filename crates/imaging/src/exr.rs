@@ -1,9 +1,9 @@
 //! OpenEXR: the linear picture, for measuring and for tone mapping elsewhere.
 
-use crate::layers::Channel;
+use crate::layers::{Channel, rgb_channels};
 use crate::{ImagingError, LinearImage, Metadata};
 use exr::image::write::WritableImage;
-use exr::image::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, SpecificChannels};
+use exr::image::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer};
 use exr::math::Vec2;
 use exr::meta::attribute::{AttributeValue, Chromaticities, Text};
 use exr::meta::header::LayerAttributes;
@@ -31,26 +31,23 @@ fn encode_scaled(
     metadata: &Metadata,
     white_luminance: Option<f32>,
 ) -> Result<Vec<u8>, ImagingError> {
-    let (width, height) = (image.width as usize, image.height as usize);
-    check_pixels(width * height, image.pixels.len())?;
-    let attributes = attributes(metadata, white_luminance)?;
-    let channels = SpecificChannels::rgb(|at: Vec2<usize>| {
-        let [r, g, b, _] = image.pixels[at.y() * width + at.x()];
-        (r, g, b)
-    });
-    let layer = Layer::new((width, height), attributes, encoding(), channels);
-    let mut file = Image::from_layer(layer);
-    file.attributes.chromaticities = Some(rec709());
-    let mut bytes = Cursor::new(Vec::new());
-    let written = file.write().non_parallel().to_buffered(&mut bytes);
-    written.map(|()| bytes.into_inner()).map_err(|error| ImagingError::Exr(error.to_string()))
+    encode_channels([image.width, image.height], rgb_channels(image), metadata, white_luminance)
 }
 
 /// Encodes channels of any names, in cd/m² where they are light, as [`encode`] does. Errors: as there.
 pub fn encode_layers(
+    size: [u32; 2],
+    channels: Vec<Channel>,
+    metadata: &Metadata,
+) -> Result<Vec<u8>, ImagingError> {
+    encode_channels(size, channels, metadata, Some(1.0))
+}
+
+fn encode_channels(
     [width, height]: [u32; 2],
     channels: Vec<Channel>,
     metadata: &Metadata,
+    white_luminance: Option<f32>,
 ) -> Result<Vec<u8>, ImagingError> {
     let size = (width as usize, height as usize);
     for channel in &channels {
@@ -58,7 +55,7 @@ pub fn encode_layers(
     }
     let channels = channels.into_iter().map(|c| AnyChannel::new(c.name, FlatSamples::F32(c.values)));
     let channels = AnyChannels::sort(channels.collect());
-    let layer = Layer::new(size, attributes(metadata, Some(1.0))?, encoding(), channels);
+    let layer = Layer::new(size, attributes(metadata, white_luminance)?, encoding(), channels);
     let mut file = Image::from_layer(layer);
     file.attributes.chromaticities = Some(rec709());
     let mut bytes = Cursor::new(Vec::new());

@@ -19,6 +19,11 @@ pub fn picture_channels(image: &LinearImage) -> Vec<Channel> {
     channels(&image.pixels, ["R", "G", "B", "A"], |pixel| *pixel)
 }
 
+/// The picture's own colours, R, G and B.
+pub(crate) fn rgb_channels(image: &LinearImage) -> Vec<Channel> {
+    channels(&image.pixels, ["R", "G", "B"], |[r, g, b, _]| [*r, *g, *b])
+}
+
 /// The picture's `direct` light.
 pub fn direct_channels(image: &LinearImage) -> Vec<Channel> {
     channels(&image.pixels, ["direct.R", "direct.G", "direct.B"], |[r, g, b, _]| [*r, *g, *b])

@@ -32,6 +32,7 @@ mod srgb;
 mod tonemap;
 mod watermark;
 mod white_balance;
+mod window;
 
 pub use bloom::Bloom;
 pub use develop::{develop, develop_image, from_linear, on_sensor, untonemapped};

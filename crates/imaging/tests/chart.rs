@@ -153,23 +153,59 @@ fn the_reference_implementation_reads_our_layers() {
     assert_eq!(read["material_id.X"][0], 16_777_216.0);
 }
 
+/// What the reference implementation reads in a picture: the white's luminance, then R, G and B of every pixel. `None`
+/// without it.
+fn read_back(bytes: Vec<u8>, name: &str) -> Option<(String, Vec<f32>)> {
+    let path = scratch(name);
+    std::fs::write(&path, bytes).expect("a file");
+    let printed = python("read_exr.py", &[path.to_str().expect("a path")]);
+    std::fs::remove_file(path).expect("the file is there");
+    let printed = printed?;
+    let mut lines = printed.lines();
+    let white = lines.next().expect("a line").to_owned();
+    assert_eq!(lines.next(), Some("chromaticities 0.64 0.33 0.3 0.6 0.15 0.06 0.3127 0.329"));
+    assert_eq!(lines.next(), Some("indigo.scene_file_path σκηνή.igs"));
+    assert_eq!(lines.next(), Some("size 7 5"));
+    Some((white, lines.map(|line| line.parse().expect("a number")).collect()))
+}
+
+fn rgb(pixels: &[[f32; 4]]) -> Vec<f32> {
+    pixels.iter().flat_map(|p| p[..3].to_vec()).collect()
+}
+
+fn metadata() -> Metadata {
+    let mut metadata = Metadata::default();
+    metadata.set("scene_file_path", "σκηνή.igs");
+    metadata
+}
+
 #[test]
 fn the_reference_implementation_reads_our_exr() {
     let pixels: Vec<[f32; 4]> =
         (0..35).map(|i| [i as f32 * 1e3, -0.25 * i as f32, 1e-6 + i as f32, 1.0]).collect();
     let image = LinearImage { width: 7, height: 5, pixels: pixels.clone() };
-    let mut metadata = Metadata::default();
-    metadata.set("scene_file_path", "σκηνή.igs");
-    let path = scratch("read.exr");
-    std::fs::write(&path, exr::encode(&image, &metadata).expect("an EXR")).expect("a file");
-    let printed = python("read_exr.py", &[path.to_str().expect("a path")]);
-    std::fs::remove_file(path).expect("the file is there");
-    let Some(printed) = printed else { return };
-    let mut lines = printed.lines();
-    assert_eq!(lines.next(), Some("whiteLuminance 1"));
-    assert_eq!(lines.next(), Some("chromaticities 0.64 0.33 0.3 0.6 0.15 0.06 0.3127 0.329"));
-    assert_eq!(lines.next(), Some("indigo.scene_file_path σκηνή.igs"));
-    assert_eq!(lines.next(), Some("size 7 5"));
-    let values: Vec<f32> = lines.map(|line| line.parse().expect("a number")).collect();
-    assert_eq!(values, pixels.iter().flat_map(|p| p[..3].to_vec()).collect::<Vec<_>>());
+    let bytes = exr::encode(&image, &metadata()).expect("an EXR");
+    let Some((white, values)) = read_back(bytes, "read.exr") else { return };
+    assert_eq!(white, "whiteLuminance 1");
+    assert_eq!(values, rgb(&pixels));
+}
+
+/// The tone-mapped picture: what is shown, as it is, without a luminance, which is the display's.
+#[test]
+fn the_reference_implementation_reads_our_tone_mapped_exr() {
+    let size = FilmSize::new(7, 5, 1).expect("a size");
+    let mut film = FilmState::new(size, &[(LayerKind::PerPixel, "camera")]);
+    let layer = &mut film.layers[0];
+    for (i, (sum, count)) in layer.sums.iter_mut().zip(&mut layer.counts).enumerate() {
+        (*sum, *count) = ([i as f64, 0.9 * i as f64, 0.5 * i as f64, 1.0], 1.0);
+    }
+    let exposure = Exposure { aperture_area: 1.0, lens_sensor_dist: 1.0, duration: 1.0 };
+    let mapping = ToneMapping::Reinhard { pre_scale: 1.5, post_scale: 0.9, burn: 6.0 };
+    let picture = develop(&film, &PictureSettings::plain(mapping, exposure));
+    assert!(picture.pixels.iter().any(|p| p[1] > 0.2 && p[1] < 0.8));
+    let image = LinearImage { width: 7, height: 5, pixels: picture.pixels.clone() };
+    let bytes = exr::encode_display_linear(&image, &metadata()).expect("an EXR");
+    let Some((white, values)) = read_back(bytes, "mapped.exr") else { return };
+    assert_eq!(white, "whiteLuminance none");
+    assert_eq!(values, rgb(&picture.pixels));
 }

@@ -7,7 +7,8 @@ import OpenEXR
 with OpenEXR.File(sys.argv[1]) as file:
     header = file.header()
     numbers = [float(v) for v in header["chromaticities"]]
-    print("whiteLuminance", f"{header['whiteLuminance']:g}")
+    white = header.get("whiteLuminance")
+    print("whiteLuminance", "none" if white is None else f"{white:g}")
     print("chromaticities", *(f"{v:g}" for v in numbers))
     print("indigo.scene_file_path", header["indigo.scene_file_path"])
     pixels = file.channels()["RGB"].pixels

@@ -1,7 +1,7 @@
 //! The mathematics under everything else: vectors, transforms, frames, bounds, random and
 //! low-discrepancy numbers, sampling warps with their inverses, and discrete distributions.
 //!
-//! Nothing here allocates on evaluation, locks, reads a clock or depends on another crate.
+//! Nothing here allocates on evaluation, locks, reads a clock or depends on another crate of the workspace.
 //! [`Real`] is the scalar of the rendering kernel; sums, tables and transforms at load are `f64`.
 
 pub mod angle;
@@ -10,6 +10,7 @@ pub mod distribution;
 pub mod elementary;
 pub mod frame;
 pub mod grid_distribution;
+pub mod pages;
 pub mod rng;
 pub mod scalar;
 pub mod sobol;

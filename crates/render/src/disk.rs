@@ -3,6 +3,7 @@
 use crate::atomic::write_atomically;
 use indigo_decl::{ResolveError, Resolved, Resolver};
 use indigo_geom::TreeStore;
+use indigo_math::pages;
 use std::fs::File;
 use std::io::{Read, Write as _};
 use std::path::{Path, PathBuf};
@@ -86,7 +87,7 @@ pub fn read_limited(path: &Path) -> std::io::Result<Vec<u8>> {
     if length > DiskResolver::DEFAULT_LIMIT {
         return Err(std::io::ErrorKind::FileTooLarge.into());
     }
-    let mut bytes = Vec::with_capacity(length as usize);
+    let mut bytes = pages::with_capacity(length as usize);
     file.take(DiskResolver::DEFAULT_LIMIT).read_to_end(&mut bytes)?;
     Ok(bytes)
 }

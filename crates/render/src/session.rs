@@ -110,14 +110,20 @@ impl Session {
     /// Where the film is of another picture, with all that differs; where the system gives no threads, or not the
     /// memory.
     pub fn go_on(scene: Arc<Scene>, options: &Options, saved: &SavedFilm) -> Result<Self, SessionError> {
+        let record = Self::check(&scene, saved)?;
+        Self::begin(scene, options, record.clone(), Some(&saved.film))
+    }
+
+    /// The record of a film if a scene can go on with it.
+    ///
+    /// # Errors
+    /// [`SessionError::Mismatch`] with all that differs.
+    pub fn check<'a>(scene: &Scene, saved: &'a SavedFilm) -> Result<&'a FilmRecord, SessionError> {
         let Some(record) = &saved.record else {
             return Err(SessionError::Mismatch(vec![FilmError::Foreign.into()]));
         };
-        let differences = blank_record(&scene, "").differences(record);
-        if !differences.is_empty() {
-            return Err(SessionError::Mismatch(differences));
-        }
-        Self::begin(scene, options, record.clone(), Some(&saved.film))
+        let differences = blank_record(scene, "").differences(record);
+        if differences.is_empty() { Ok(record) } else { Err(SessionError::Mismatch(differences)) }
     }
 
     fn begin(

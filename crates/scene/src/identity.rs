@@ -3,11 +3,12 @@
 //!
 //! Left out is what decides how long, how and with what name to render (`renderer_settings`, whose deciding
 //! values are compared by name), and what decides only how the film is developed. Places and paths do not
-//! count: the same scene on another machine is the same scene. Files that the scene names count by their
-//! content.
+//! count: the same scene on another machine is the same scene. Where an element names a file, the file's content counts
+//! in the place of its path, so that two files whose contents change places make another scene.
 
 use indigo_decl::{Element, EmbeddedMesh, ResolveError, Resolved, Resolver};
-use std::collections::BTreeSet;
+use indigo_diag::{SourceId, SourceMap};
+use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
 /// Elements without influence on the film.
@@ -17,7 +18,8 @@ const DEVELOPMENT: &[&str] =
 /// Hands files on and keeps the hashes of their contents.
 pub(crate) struct Witness<'a> {
     inner: &'a dyn Resolver,
-    seen: Mutex<BTreeSet<[u8; 32]>>,
+    /// By the path as it was written, and the file that it was written in.
+    seen: Mutex<BTreeMap<(String, String), [u8; 32]>>,
 }
 
 impl<'a> Witness<'a> {
@@ -25,12 +27,20 @@ impl<'a> Witness<'a> {
         Self { inner, seen: Mutex::default() }
     }
 
-    /// The hash of a scene's elements and of all files read so far, in whatever order.
-    pub fn identity(&self, elements: [u8; 32]) -> [u8; 32] {
+    /// The hash of a scene and of the files that have been read for it.
+    pub fn identity(&self, outline: &Outline, sources: &SourceMap) -> [u8; 32] {
+        let seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
         let mut hasher = blake3::Hasher::new();
-        hasher.update(&elements);
-        for hash in self.seen.lock().unwrap_or_else(PoisonError::into_inner).iter() {
-            hasher.update(hash);
+        hasher.update(&outline.shape);
+        for (source, text) in &outline.texts {
+            // A name that happens to be a path as well stands for the same content everywhere.
+            match seen.get(&(text.to_string(), sources.name(*source).to_owned())) {
+                Some(content) => _ = hasher.update(&[1]).update(content),
+                None => {
+                    hasher.update(&[0]);
+                    hash_text(&mut hasher, text);
+                }
+            }
         }
         *hasher.finalize().as_bytes()
     }
@@ -40,21 +50,35 @@ impl Resolver for Witness<'_> {
     fn read(&self, path: &str, from: &str) -> Result<Resolved, ResolveError> {
         let found = self.inner.read(path, from)?;
         let hash = *blake3::hash(&found.bytes).as_bytes();
-        self.seen.lock().unwrap_or_else(PoisonError::into_inner).insert(hash);
+        let mut seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
+        seen.insert((path.to_owned(), from.to_owned()), hash);
         Ok(found)
     }
 }
 
-/// The hash of what a scene's elements say.
-pub(crate) fn hash_elements(root: &Element) -> [u8; 32] {
-    let mut hasher = blake3::Hasher::new();
-    hash_element(&mut hasher, root);
-    *hasher.finalize().as_bytes()
+/// What a scene's elements say, before it is known which of their texts are paths.
+pub(crate) struct Outline {
+    /// The hash of all but the texts.
+    shape: [u8; 32],
+    /// The texts in order, each with the file that it stands in.
+    texts: Vec<(SourceId, Box<str>)>,
 }
 
-fn hash_element(hasher: &mut blake3::Hasher, element: &Element) {
+impl Outline {
+    pub fn new(root: &Element) -> Self {
+        let (mut hasher, mut texts) = (blake3::Hasher::new(), vec![]);
+        outline_element(&mut hasher, &mut texts, root);
+        Self { shape: *hasher.finalize().as_bytes(), texts }
+    }
+}
+
+fn outline_element(hasher: &mut blake3::Hasher, texts: &mut Vec<(SourceId, Box<str>)>, element: &Element) {
     hash_text(hasher, &element.name);
-    hash_text(hasher, &element.text.value);
+    let text = &element.text;
+    hash_count(hasher, usize::from(!text.value.is_empty()));
+    if !text.value.is_empty() {
+        texts.push((text.span.source, text.value.clone()));
+    }
     hash_count(hasher, element.attributes.len());
     for attribute in &element.attributes {
         hash_text(hasher, &attribute.name.value);
@@ -65,7 +89,7 @@ fn hash_element(hasher: &mut blake3::Hasher, element: &Element) {
     }
     let children = element.children.iter().filter(|c| !DEVELOPMENT.contains(&&*c.name));
     hash_count(hasher, children.clone().count());
-    children.for_each(|child| hash_element(hasher, child));
+    children.for_each(|child| outline_element(hasher, texts, child));
 }
 
 fn hash_mesh(hasher: &mut blake3::Hasher, mesh: &EmbeddedMesh) {

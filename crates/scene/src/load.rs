@@ -1,6 +1,6 @@
 //! Loading: read, bind, lower, and gather everything that is wrong.
 
-use crate::identity::{self, Witness};
+use crate::identity::{Outline, Witness};
 use crate::lower;
 use crate::scene::{Development, Scene};
 use crate::schema::SCENE;
@@ -63,8 +63,8 @@ pub struct LoadedDevelopment {
 
 /// The elements of a scene and its settings, bound.
 struct Bound {
-    /// Hash of the elements.
-    hash: [u8; 32],
+    /// What the elements say.
+    outline: Outline,
     root: Node,
     settings: Settings,
 }
@@ -86,7 +86,7 @@ pub fn load(path: &str, options: &LoadOptions) -> Loaded {
     };
     let mut scene = lower::lower(&bound.root, &bound.settings, path, context).filter(|_| !sink.has_errors());
     if let Some(scene) = &mut scene {
-        scene.identity.hash = witness.identity(bound.hash);
+        scene.identity.hash = witness.identity(&bound.outline, &sources);
     }
     Loaded { scene, settings: Some(bound.settings), sources, sink }
 }
@@ -111,7 +111,7 @@ fn read_and_bind(
     sink: &mut Sink,
 ) -> Option<Bound> {
     let root = read_scene(path, options.resolver, sources, sink, &options.limits)?;
-    let hash = identity::hash_elements(&root);
+    let outline = Outline::new(&root);
     let nowhere = root.span;
     let root = bind(root, &SCENE, sink);
     let mut layers = vec![];
@@ -123,7 +123,7 @@ fn read_and_bind(
     if let Some(node) = options.inifile.and_then(|ini| read_inifile(ini, options, sources, sink)) {
         layers.push((Origin::IniFile, node));
     }
-    Some(Bound { hash, root, settings: Settings::new(layers, nowhere) })
+    Some(Bound { outline, root, settings: Settings::new(layers, nowhere) })
 }
 
 /// The settings become a layer of their own, apart from the rest of the scene.

@@ -9,6 +9,7 @@
 //! - [`ztest`]: does a mean of samples agree with an exact value?
 //! - [`zgrid`]: do two noisy images agree, block by block?
 //! - [`quadrature`]: deterministic integrals to compare with.
+//! - [`fit`]: where is a measured curve least?
 //! - [`image`]: error measures and difference maps.
 //! - [`allocation`]: what does it ask of the heap?
 //! - [`stats`], [`special`], [`rng`]: what the above stand on.
@@ -19,6 +20,7 @@
 pub mod allocation;
 pub mod chi2;
 mod domain;
+pub mod fit;
 pub mod image;
 pub mod png;
 pub mod quadrature;

@@ -5,8 +5,13 @@ use std::path::PathBuf;
 use crate::process::{self, command};
 
 /// What the tests import. OpenEXR, the reference implementation, reads back our EXR files; colour-science works
-/// out how colours are shown. Pinned: a new version may change what a test sees only by a commit here.
-const TEST_PACKAGES: &[&str] = &["OpenEXR==3.4.4", "numpy==2.3.5", "colour-science==0.4.7"];
+/// out how colours are shown. pyoidn brings Open Image Denoise itself, for the processors that it is built for. Pinned: a new version may change what a test sees only by a commit here.
+const TEST_PACKAGES: &[&str] = &[
+    "OpenEXR==3.4.4",
+    "numpy==2.3.5",
+    "colour-science==0.4.7",
+    "pyoidn==2.5.1.0; sys_platform == 'linux' and platform_machine == 'x86_64'",
+];
 
 /// The environment of the tests, made on first use; gives its Python.
 pub fn for_tests() -> Result<PathBuf, String> {

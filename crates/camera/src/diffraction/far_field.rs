@@ -24,6 +24,7 @@
 
 use super::fourier::PowerSpectrum;
 use crate::Mask;
+use indigo_math::pages::fresh;
 use rayon::prelude::*;
 
 /// Cells along a side of the drawing.
@@ -68,7 +69,7 @@ impl FarField {
         let radii = radii();
         let rings = radii.len() - 1;
         let directions: Vec<[f64; 2]> = (0..SECTORS).map(|j| direction(j as f64 + 0.5)).collect();
-        let mut density = vec![0.0; (rings + 1) * SECTORS];
+        let mut density = fresh(vec![0.0; (rings + 1) * SECTORS]);
         density.par_chunks_mut(SECTORS).take(rings).enumerate().for_each(|(i, row)| {
             let (lo, hi) = (radii[i], radii[i + 1]);
             let (spectrum, step) = if hi <= CORE as f64 { (&core, CORE_STEPS) } else { (&outer, STEPS) };

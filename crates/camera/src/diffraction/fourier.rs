@@ -3,6 +3,7 @@
 // tidy: load-time mathematics
 
 use crate::Mask;
+use indigo_math::pages;
 use rayon::prelude::*;
 use realfft::RealFftPlanner;
 use realfft::num_complex::Complex;
@@ -37,7 +38,7 @@ impl PowerSpectrum {
             (0..=half).map(|k| cell_spectrum(k as f64 / length as f64).powi(-2)).collect();
         let scale = (mask.side as f64).powi(-4);
         let fft = FftPlanner::new().plan_fft_forward(length);
-        let mut values = vec![0.0; (half + 1) * height];
+        let mut values = pages::fresh(vec![0.0; (half + 1) * height]);
         values.par_chunks_mut(BATCH * height).enumerate().for_each_init(
             || {
                 let zero = Complex::<f32>::default();
@@ -95,7 +96,7 @@ fn cell_spectrum(f: f64) -> f64 {
 /// The first `keep` values of each row's transform, darkness added to its length.
 fn transformed_rows(mask: &Mask, steps: usize, keep: usize) -> Vec<Complex<f32>> {
     let fft = RealFftPlanner::<f32>::new().plan_fft_forward(mask.side * steps);
-    let mut rows = vec![Complex::default(); mask.side * keep];
+    let mut rows = pages::filled(Complex::default(), mask.side * keep);
     rows.par_chunks_mut(keep).zip(mask.cells.par_chunks(mask.side)).for_each_init(
         || (fft.make_input_vec(), fft.make_output_vec(), fft.make_scratch_vec()),
         |(input, output, scratch), (out, cells)| {

@@ -141,3 +141,44 @@ fn layers_have_the_coverage_of_the_scene() {
         assert!(alpha.iter().any(|a| (0.1..0.9).contains(a)), "no edge is smooth");
     }
 }
+
+/// The library itself, where `cargo xtask test` could install it.
+fn open_image_denoise() -> Option<PathBuf> {
+    let python = std::env::var_os("INDIGO_TEST_PYTHON")?;
+    let script = "import importlib.util as u; s = u.find_spec('pyoidn'); print(s.submodule_search_locations[0] if s else '')";
+    let ran = Command::new(python).args(["-c", script]).output().expect("Python");
+    let folder = String::from_utf8(ran.stdout).expect("a path");
+    let library = PathBuf::from(folder.trim()).join("oidn/lib/libOpenImageDenoise.so.2");
+    library.exists().then_some(library)
+}
+
+/// A few samples, denoised by the library itself, come closer to many samples.
+#[test]
+fn open_image_denoise_takes_noise_out() {
+    let Some(library) = open_image_denoise() else { return };
+    let bench = Workbench::new(&format!("{QUIET}<width>96</width><height>72</height>"));
+    let text = std::fs::read_to_string(bench.path("scene.igs")).expect("the scene");
+    // A small lamp makes noise.
+    let from = text.find("<background>").expect("the background");
+    let to = text.find("</background>").expect("its end") + "</background>".len();
+    let lamp = "<sphere><center>0 0 -101</center><radius>100</radius><material_name>grey</material_name></sphere>\
+        <rectanglelight><pos>-1.5 3 3</pos><width>1.5</width><height>1.5</height><spectrum><uniform><value>1e6</value></uniform></spectrum></rectanglelight>";
+    bench.write("scene.igs", &format!("{}{lamp}{}", &text[..from], &text[to..]));
+    let ran =
+        bench.run_with("INDIGO_OIDN", &library, &["scene.igs", "-haltspp", "4", "-o", "a.png", "-denoise"]);
+    assert_eq!(ran.status, Some(0), "{ran:?}");
+    assert!(!ran.stderr.contains("warning"), "{}", ran.stderr);
+    assert_eq!(bench.run(&["scene.igs", "-haltspp", "400", "-o", "clean.png"]).status, Some(0));
+    let clean = codes(&bench, "clean.png");
+    let error = |name: &str| {
+        let squares = codes(&bench, name)
+            .iter()
+            .zip(&clean)
+            .map(|(a, b)| f64::from(a.abs_diff(*b)).powi(2))
+            .sum::<f64>();
+        (squares / clean.len() as f64).sqrt()
+    };
+    let (noisy, denoised) = (error("a.png"), error("a_denoised.png"));
+    assert!(noisy > 4.0, "there is no noise to take out: {noisy}");
+    assert!(denoised < 0.6 * noisy, "{denoised} codes off after denoising, {noisy} before");
+}

@@ -88,6 +88,45 @@ fn a_film_of_another_scene_is_not_gone_on_with() {
     }
 }
 
+/// A file counts by what is in it, wherever it lies, and in the place where it is named.
+#[test]
+fn a_scenes_files_count_by_their_content() {
+    let bench = Workbench::new(SAVED);
+    // An opening and dust, as large as aperture images must be.
+    let picture = |dark: usize| {
+        let codes: Vec<u8> = (0..512 * 512).map(|i| if i % 512 < dark { 0 } else { 255 }).collect();
+        indigo_imaging::png::encode_grey(512, &codes).expect("a picture")
+    };
+    let write = |name: &str, dark: usize| std::fs::write(bench.path(name), picture(dark)).expect("a file");
+    write("a.png", 100);
+    write("b.png", 200);
+    let text = std::fs::read_to_string(bench.path("scene.igs")).expect("the scene");
+    let scene = |aperture: &str, dust: &str| {
+        let camera = format!(
+            "<aperture_shape><image><path>{aperture}</path></image></aperture_shape><obstacle_map>{dust}</obstacle_map></camera>"
+        );
+        text.replace("</camera>", &camera)
+    };
+    bench.write("scene.igs", &scene("a.png", "b.png"));
+    ok(&bench.run(&["scene.igs", "-haltspp", "1", "-o", "first.png"]));
+    write("elsewhere.png", 100);
+    bench.write("moved.igs", &scene("elsewhere.png", "b.png"));
+    ok(&bench.run(&["moved.igs", "-haltspp", "2", "-r", "first.igi", "-o", "moved.png"]));
+    std::fs::remove_file(bench.path("aperture_preview.png")).expect("the preview");
+    write("a.png", 200);
+    write("b.png", 100);
+    let ran = bench.run(&["scene.igs", "-haltspp", "2", "-r", "first.igi", "-o", "exchanged.png"]);
+    assert_eq!(ran.status, Some(2), "{ran:?}");
+    assert!(ran.stderr.contains("the scene itself"), "{}", ran.stderr);
+    for name in ["exchanged.png", "exchanged.igi", "aperture_preview.png"] {
+        assert!(!bench.path(name).exists(), "a refused film writes {name}");
+    }
+    // Without a name either.
+    let ran = bench.run(&["scene.igs", "-haltspp", "2", "-r", "first.igi"]);
+    assert_eq!(ran.status, Some(2), "{ran:?}");
+    assert!(!bench.path("renders").exists());
+}
+
 /// The picture that a render saved is the one that its film gives; with other settings it is another.
 #[test]
 fn a_film_is_developed_again() {

@@ -6,6 +6,7 @@ use super::foreign;
 use super::{HASH, IMAGE, IgiError, MAGIC, MARK, MAX_LAYERS, PADDING, SECTION_VERSION, VERSION};
 use crate::record::{FilmRecord, Run, SavedFilm};
 use crate::{FilmSize, FilmState, Layer, LayerKind, Totals};
+use indigo_math::pages::fresh;
 
 /// Reads an Indigo image, of this program or another. Runs on the caller's rayon pool.
 ///
@@ -117,10 +118,10 @@ fn read_layer(bytes: &mut Bytes<'_>, size: FilmSize) -> Result<Layer, IgiError> 
     let pixels = size.internal_pixels();
     // What is missing is noticed before room is made for it.
     let packed = Packed::take(bytes, 4 * pixels)?;
-    let mut sums = vec![[0.0; 4]; pixels];
+    let mut sums = fresh(vec![[0.0; 4]; pixels]);
     packed.unpack(sums.as_flattened_mut())?;
     let packed = Packed::take(bytes, kind.count_slots(pixels))?;
-    let mut counts = vec![0.0; kind.count_slots(pixels)];
+    let mut counts = fresh(vec![0.0; kind.count_slots(pixels)]);
     packed.unpack(&mut counts)?;
     if counts.iter().any(|&n| n < 0.0) {
         return Err(IgiError::Malformed("a pixel has a negative number of samples"));

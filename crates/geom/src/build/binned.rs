@@ -2,7 +2,7 @@
 //! Bounding Volume Hierarchies", 2007).
 
 use super::binary::{BinaryNode, Lanes, Prim};
-use crate::pages::with_capacity;
+use indigo_math::pages::with_capacity;
 
 /// Most bins along an axis.
 const BINS: usize = 16;

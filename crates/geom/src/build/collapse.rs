@@ -5,8 +5,8 @@
 //! its subtree as at most k children of some wide node.
 
 use super::binary::{BinaryNode, Prim};
-use crate::pages::with_capacity;
 use crate::wide::{Child, Node};
+use indigo_math::pages::with_capacity;
 use rayon::prelude::*;
 
 /// Cost of testing a node's eight boxes.

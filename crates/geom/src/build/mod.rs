@@ -12,9 +12,9 @@ pub(crate) use binary::Prim;
 pub(crate) use binned::split_all;
 pub(crate) use collapse::{LeafMaker, Size, collapse};
 
-use crate::pages::with_capacity;
 use crate::soup::Soup;
 use crate::wide::{Block, Box3, Child, WideTree};
+use indigo_math::pages::with_capacity;
 use rayon::prelude::*;
 
 /// Levels of a tree of triangles; bounds what it asks of the traversal stack.

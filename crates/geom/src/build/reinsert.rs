@@ -7,8 +7,8 @@
 //! found a better place and at what the moves touched: of the others hardly any finds one.
 
 use super::binary::BinaryNode;
-use crate::pages::with_capacity;
 use crate::wide::Box3;
+use indigo_math::pages::with_capacity;
 use rayon::prelude::*;
 
 /// Most rounds.

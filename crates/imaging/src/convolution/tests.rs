@@ -1,6 +1,8 @@
 //! Convolution against the sum that defines it.
 
 use super::*;
+use crate::Region;
+use indigo_film::FilmSize;
 
 fn kernel(plane: &Plane, value: impl Fn(i64, i64) -> f64 + Sync) -> Spectrum {
     let [spectrum] = plane.spectra(|x, y| [value(x, y)]);
@@ -13,8 +15,7 @@ fn convolve(plane: &Plane, kernel: &Spectrum, value: impl Fn(usize, usize) -> f3
     let at = |i: usize| [value(i % plane.width, i / plane.width); 4];
     let pixels: Vec<_> = (0..size.pixels()).map(at).collect();
     let mut image = XyzImage { size, missing: vec![false; pixels.len()], pixels };
-    let window = Window::of(size, Region::whole(size)).unwrap();
-    window.convolve(&mut image, plane, [kernel; 3], |_, _, v| v);
+    plane.convolve(&mut image, Window::of(size, Region::whole(size)), [kernel; 3], |_, _, v| v);
     image.pixels.iter().map(|p| p[1]).collect()
 }
 

@@ -1,24 +1,22 @@
 //! Means over output pixels, and light that is added to all internal pixels of one.
 
 use crate::Region;
-use crate::convolution::Window;
+use crate::window::Window;
 use indigo_film::{FilmSize, XyzImage};
+use indigo_math::pages::fresh;
 use rayon::prelude::*;
 
 /// The means of X, Y and Z over the output pixels of a region, as a picture of its size; `None` where it is empty.
 pub(super) fn means(image: &XyzImage, region: Region) -> Option<XyzImage> {
-    let window = Window::of(image.size, region)?;
+    let window = Window::of(image.size, region);
     let factor = image.size.super_sample() as usize;
     let (width, height) = (window.width / factor, window.height / factor);
     let size = FilmSize::new(width as u32, height as u32, 1).ok()?;
-    let stride = image.size.internal_width() as usize;
     let scale = 1.0 / (factor * factor) as f32;
-    let mut pixels = vec![[0.0; 4]; width * height];
+    let mut pixels = fresh(vec![[0.0; 4]; width * height]);
     pixels.par_chunks_exact_mut(width).enumerate().for_each(|(y, means)| {
-        for row in 0..factor {
-            let start = (window.top + y * factor + row) * stride + window.left;
-            let row = image.pixels[start..start + window.width].chunks_exact(factor);
-            for (mean, block) in means.iter_mut().zip(row) {
+        for y in y * factor..(y + 1) * factor {
+            for (mean, block) in means.iter_mut().zip(window.row(image, y).chunks_exact(factor)) {
                 for pixel in block {
                     mean.iter_mut().zip(pixel).for_each(|(m, v)| *m += v);
                 }
@@ -31,14 +29,11 @@ pub(super) fn means(image: &XyzImage, region: Region) -> Option<XyzImage> {
 
 /// Leaves a part of X, Y and Z of the region's internal pixels, and adds to them what is there for their output pixel.
 pub(super) fn add(image: &mut XyzImage, region: Region, kept: [f32; 3], light: &XyzImage) {
-    let Some(window) = Window::of(image.size, region) else { return };
+    let window = Window::of(image.size, region);
     let factor = image.size.super_sample() as usize;
-    let stride = image.size.internal_width() as usize;
-    let rows = image.pixels.par_chunks_exact_mut(stride).skip(window.top).take(window.height);
-    rows.enumerate().for_each(|(y, row)| {
-        let light = light.pixels.chunks_exact(window.width / factor).nth(y / factor).unwrap_or_default();
-        let blocks = row[window.left..window.left + window.width].chunks_exact_mut(factor);
-        for (block, light) in blocks.zip(light) {
+    let all = Window::of(light.size, Region::whole(light.size));
+    window.rows_mut(image).enumerate().for_each(|(y, row)| {
+        for (block, light) in row.chunks_exact_mut(factor).zip(all.row(light, y / factor)) {
             for pixel in block {
                 for c in 0..3 {
                     pixel[c] = kept[c] * pixel[c] + light[c];

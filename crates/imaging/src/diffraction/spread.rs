@@ -7,6 +7,7 @@
 
 use indigo_camera::FarField;
 use indigo_camera::diffraction::far_field::{SECTORS, direction, sector_of};
+use indigo_math::pages::fresh;
 use indigo_spectrum::observer::cmf;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -39,7 +40,7 @@ impl Spread {
             radii.extend(radii.last().map(|r| r * (1.0 + GROWTH)));
         }
         let wavelengths = wavelengths();
-        let mut density = vec![[0.0; 3]; (radii.len() - 1) * SECTORS];
+        let mut density = fresh(vec![[0.0; 3]; (radii.len() - 1) * SECTORS]);
         density.par_chunks_mut(SECTORS).zip(radii.par_windows(2)).for_each(|(ring, edges)| {
             add_rows(&rows_at(field, &wavelengths, 0.5 * (edges[0] + edges[1])), ring);
         });

@@ -3,10 +3,11 @@
 use super::spread::Spread;
 use super::{Diffraction, Kernel, NEAR, SPACING};
 use crate::Region;
-use crate::convolution::Window;
+use crate::window::Window;
 use indigo_camera::{Aperture, Blades, FarField, Pupil};
 use indigo_film::{FilmSize, XyzImage};
 use indigo_spectrum::observer::cmf;
+use indigo_testkit::fit::lowest_point;
 use std::sync::{Arc, LazyLock};
 
 static CIRCLE: LazyLock<FarField> = LazyLock::new(|| far_field(Aperture::Circular));
@@ -205,6 +206,63 @@ fn only_the_region_is_touched() {
     assert!(changed > 900, "{changed}");
 }
 
+/// The picture of lamps behind an aperture, a cycle at 550 nm being so many pixels wide.
+fn shine(aperture: Aperture, pixels_per_cycle: f64, side: u32, light: impl Fn([f64; 2]) -> f32) -> XyzImage {
+    let size = FilmSize::new(side, side, 1).unwrap();
+    let middle = f64::from(side / 2);
+    let at = |i: u32| [f64::from(i % side) - middle, f64::from(i / side) - middle];
+    let pixels: Vec<_> = (0..side * side).map(|i| [light(at(i)); 4]).collect();
+    let mut image = XyzImage { size, missing: vec![false; pixels.len()], pixels };
+    let cycle = pixels_per_cycle / 550.0 / f64::from(side);
+    Diffraction::new(Pupil::new(aperture, None), [cycle; 2]).apply(&mut image, Region::whole(size));
+    image
+}
+
+/// The first two dark rings of the picture of a point, where they are by theory: for Y, whose wavelengths are near enough
+/// to each other for dark rings in white light. r³ takes out that rings become darker with the distance.
+#[test]
+fn the_pictures_rings_have_their_radii() {
+    let (scale, side) = (16.0, 121u32);
+    let image = shine(Aperture::Circular, scale, side, |[x, y]| f32::from(u8::from(x == 0.0 && y == 0.0)));
+    let radius = |i: usize| (i as f64 % 121.0 - 60.0).hypot((i / 121) as f64 - 60.0);
+    let picture =
+        image.pixels.iter().enumerate().map(|(i, p)| (radius(i), radius(i).powi(3) * f64::from(p[1])));
+    let theory = (1..1000).map(|i| {
+        let r = f64::from(i) * 0.06;
+        let density = (360..=830).step_by(2).map(f64::from).map(|lambda| {
+            let x = std::f64::consts::PI * r / scale * 550.0 / lambda;
+            cmf(lambda)[1] * (bessel(1.0, x) / x / lambda).powi(2)
+        });
+        (r, r.powi(3) * density.sum::<f64>())
+    });
+    for near in [1.22, 2.23] {
+        let reach = 0.2 * scale;
+        let want = lowest_point(theory.clone(), near * scale, reach).expect("a dark ring");
+        let got = lowest_point(picture.clone(), near * scale, reach).expect("a dark ring");
+        // Y is at its most at 555 nm, and reaches a little farther to the red.
+        assert!((want / (near * scale) - 1.0).abs() < 0.05, "{want}");
+        assert!((got / want - 1.0).abs() < 0.02, "a dark ring at {got} pixels instead of {want}");
+    }
+}
+
+#[test]
+fn the_sun_has_as_many_streaks_as_its_aperture() {
+    for (n, count) in [(5, 10), (6, 6), (7, 14)] {
+        let aperture = Aperture::generated(&Blades::new(n, 0.1, 0.4, 1e3).unwrap());
+        let sun = shine(aperture, 0.1, 301, |[x, y]| if x.hypot(y) < 4.0 { 1e9 } else { 1.0 });
+        let around: Vec<_> = sun
+            .pixels
+            .iter()
+            .enumerate()
+            .map(|(i, p)| {
+                let at = [(i % 301) as f64 - 150.0, 150.0 - (i / 301) as f64];
+                (at, [0, 1, 2].map(|c| f64::from(p[c])))
+            })
+            .collect();
+        assert_eq!(streaks(&around, 120.0).0, count, "{n} blades");
+    }
+}
+
 /// A lamp of one internal pixel: each output pixel gets what theory says that it gets of light that was even over the
 /// lamp's own, nothing is negative, and an even picture stays even.
 #[test]
@@ -252,7 +310,7 @@ fn two_sizes_are_held() {
     let diffraction = Diffraction::new(Pupil::new(Aperture::Circular, None), [2e-4, 2e-4]);
     let prepared = |side: u32| {
         let size = FilmSize::new(side, side, 1).unwrap();
-        let window = Window::of(size, Region::whole(size)).unwrap();
+        let window = Window::of(size, Region::whole(size));
         diffraction.prepared(window, size).unwrap()
     };
     let [a, b] = [8, 12].map(prepared);

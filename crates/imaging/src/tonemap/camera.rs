@@ -40,8 +40,12 @@ impl Response {
     /// at least two. `None` where they are not.
     pub fn new(points: [(&[f32], &[f32]); 3]) -> Option<Self> {
         let [r, g, b] = points.map(|(irradiance, brightness)| Curve::new(irradiance, brightness));
+        Some(Self::of([r?, g?, b?]))
+    }
+
+    fn of(curves: [Curve; 3]) -> Self {
         let decode = (0..=DECODE_CELLS).map(|i| srgb::decode(i as f64 / DECODE_CELLS as f64) as f32);
-        Some(Self { curves: [r?, g?, b?], decode: decode.collect() })
+        Self { curves, decode: decode.collect() }
     }
 
     /// The response of a display: what the sensor gathers is shown as it is, up to saturation.
@@ -51,8 +55,7 @@ impl Response {
         let brightness: Vec<f32> = irradiance.iter().map(|&v| srgb::encode(f64::from(v)) as f32).collect();
         let curve = Curve::new(&irradiance, &brightness);
         let curve = curve.unwrap_or_else(|| unreachable!("the points above are in order"));
-        let decode = (0..=DECODE_CELLS).map(|i| srgb::decode(i as f64 / DECODE_CELLS as f64) as f32);
-        Self { curves: [curve.clone(), curve.clone(), curve], decode: decode.collect() }
+        Self::of([curve.clone(), curve.clone(), curve])
     }
 
     /// Display-linear light of a brightness in [0, 1].

@@ -102,16 +102,21 @@ fn with_vignetting_the_exr_holds_the_luminance_on_the_axis() {
 #[test]
 fn a_super_sampled_exr_holds_the_same_luminance() {
     let save = "<save_untonemapped_exr>true</save_untonemapped_exr>";
-    let text = settings(SIDE as u32, save)
-        .replace("<super_sample_factor>1", "<super_sample_factor>3")
-        .replace("<metropolis>", "<downsize_filter><mn_cubic/></downsize_filter><metropolis>");
-    let scene = scene(&scene_file(&[
-        text,
-        flat_camera([0.0; 3], [0.0, 1.0, 0.0], 1.0),
-        background(&uniform(RADIANCE)),
-    ]));
-    let all = Moments::of(luminances(&saved_exr(&scene, 576, "super")));
-    assert!((all.mean() / (RADIANCE * NITS_PER_UNIFORM) - 1.0).abs() < 1e-3, "{}", all.mean());
+    for factor in [3, 5, 6, 7, 8] {
+        // As many samples for an internal pixel, whatever their number, with fewer pixels of more of them.
+        let side = if factor == 3 { SIDE as u32 } else { 4 };
+        let text = settings(side, save)
+            .replace("<super_sample_factor>1", &format!("<super_sample_factor>{factor}"))
+            .replace("<metropolis>", "<downsize_filter><mn_cubic/></downsize_filter><metropolis>");
+        let scene = scene(&scene_file(&[
+            text,
+            flat_camera([0.0; 3], [0.0, 1.0, 0.0], 1.0),
+            background(&uniform(RADIANCE)),
+        ]));
+        let spp = 64 * factor * factor;
+        let all = Moments::of(luminances(&saved_exr(&scene, spp, &format!("super{factor}"))));
+        assert!((all.mean() / (RADIANCE * NITS_PER_UNIFORM) - 1.0).abs() < 1e-3, "{factor}: {}", all.mean());
+    }
 }
 
 #[test]

@@ -99,6 +99,28 @@ fn the_filter_and_the_rays_agree() {
     }
 }
 
+/// Coverage is not diffracted: the same whether light is deflected, filtered or neither, pixel by pixel.
+#[test]
+fn coverage_is_of_things_and_not_of_light() {
+    let wide = "<aperture_diffraction>true</aperture_diffraction><post_process_diffraction>false</post_process_diffraction>";
+    let off = "<aperture_diffraction>false</aperture_diffraction>";
+    for bidirectional in ["false", "true"] {
+        let [sharp, filtered, deflected] = [off, &*diffraction(true), wide].map(|diffraction| {
+            let text = lamp_text(diffraction, "");
+            let at = text.find("<bidirectional>").expect("the setting");
+            let end = at + text[at..].find("</bidirectional>").expect("its end");
+            let text = format!("{}<bidirectional>{bidirectional}{}", &text[..at], &text[end..]);
+            sensor(&scene(&text), 7, 4)
+        });
+        assert!(sharp.pixels != filtered.pixels && sharp.pixels != deflected.pixels);
+        let coverage = |image: &XyzImage| image.pixels.iter().map(|p| p[3]).collect::<Vec<_>>();
+        assert!(coverage(&sharp) == coverage(&filtered), "{bidirectional}");
+        assert!(coverage(&sharp) == coverage(&deflected), "{bidirectional}");
+        let covered: f32 = coverage(&sharp).iter().sum();
+        assert_eq!(covered as usize, (LAMP[1] - LAMP[0]).pow(2), "what the lamp covers");
+    }
+}
+
 /// Light of the film is kept by the filter but for what leaves the picture.
 #[test]
 fn the_filter_keeps_the_light() {

@@ -134,8 +134,8 @@ pub static RENDERER_SETTINGS: Block = Block::new(
         real(
             "display_period",
             "10",
-            "How often the picture on the screen is renewed; the console prints a line of progress as often, unless it \
-             renews its line on a terminal.",
+            "How often the picture on the screen is renewed; the console prints a line of progress as often, but no \
+             more than ten a second, unless it renews its line on a terminal.",
         )
             .unit("s")
             .range(Range::Above(0.0)),
@@ -187,7 +187,8 @@ pub static RENDERER_SETTINGS: Block = Block::new(
             "render_foreground_alpha",
             "false",
             "Whether the picture shows only what hides the background: white where there is something, black \
-             where the surroundings are seen, and grey in between along edges (linear in the EXR, sRGB-encoded in \
+             where the surroundings are seen, and grey in between along edges; without diffraction, which spreads light \
+             and not the things that it comes from (linear in the EXR, sRGB-encoded in \
              the PNG as all pictures are, so that half covered is 188 of 255). Rendered by camera rays alone, \
              whatever `metropolis`, `hybrid`, `bidirectional` and `max_depth` say.",
         ),

@@ -20,7 +20,8 @@ pub static TONEMAPPING: Block = Block::new(
 /// The declaration of `linear`.
 pub static LINEAR: Block = Block::new(
     "linear",
-    "The exposure of the sensor, in lux seconds, times a factor.",
+    "The exposure of the sensor, in lux seconds, times a factor. The open area of the aperture counts: blades and \
+     aperture images darken the picture as they do with a real lens.",
     &[Field::new("scale", Kind::Real, Presence::Required, "The factor.").range(Range::AtLeast(0.0))],
 )
 .with_example("<linear><scale>1.0</scale></linear>");

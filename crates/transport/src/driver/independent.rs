@@ -124,7 +124,13 @@ impl Independent {
             on_film.position.y / size.internal_height() as Real,
         );
         let found = tracer.trace(scene, &mut numbers, position, self.events, &mut ());
-        let alpha = (found.path.alpha * on_film.weight).to_f64() as f32;
+        let alpha = if scene.camera.deflects() {
+            Real::from(u8::from(tracer.covers(scene, &mut numbers, position)))
+        } else {
+            // The same without another ray.
+            found.path.alpha
+        };
+        let alpha = (alpha * on_film.weight).to_f64() as f32;
         let [direct, indirect] = self.layers;
         let mut add = |layer, light, alpha| {
             delta.add_sample(layer, x, y, found.sensor.xyz(&(light * on_film.weight)), alpha);

@@ -139,6 +139,11 @@ impl PathTracer {
         self.memory.rays()
     }
 
+    /// Its memory, for rays of other kinds.
+    pub(super) fn memory(&mut self) -> &mut WorldMemory {
+        &mut self.memory
+    }
+
     /// Traces the path of a camera ray.
     pub fn trace(
         &mut self,

@@ -1,6 +1,7 @@
 //! The techniques behind one door.
 
 use super::bidirectional::Bidirectional;
+use super::first_event::first_event;
 use super::path::PathTracer;
 use super::{Events, PathSample, Record, Splat};
 use crate::sampler::{Block, PrimarySample};
@@ -57,6 +58,24 @@ impl Tracer {
             Self::Bidirectional(b) => b.trace(scene, numbers, &lambda, &camera, events, record),
         };
         Found { path, sensor: Sensor::new(&lambda) }
+    }
+
+    /// Whether something hides the background from a position on the film, seen through the same point of the lens as by
+    /// [`trace`](Self::trace), but without diffraction.
+    ///
+    /// Coverage is a fact of geometry, the part of a pixel's rays that meet something. It has no wavelength, so there
+    /// is no pattern of diffraction that it could be spread by; what composes pictures over each other spreads the light
+    /// of both, not the boundary between them. So it is the same whether light is deflected, filtered or neither.
+    pub fn covers(&mut self, scene: &Scene, numbers: &mut impl PrimarySample, position: Vec2) -> bool {
+        let [.., wavelength, _] = numbers.block(Block::FILM);
+        let lambda = scene.wavelengths.sample(wavelength);
+        let [x, y, ..] = numbers.block(Block::LENS);
+        let camera = scene.camera.ray(position, Vec2::new(x, y));
+        let memory = match self {
+            Self::Path(path) => path.memory(),
+            Self::Bidirectional(b) => b.memory(),
+        };
+        first_event(memory, scene, numbers, &lambda, &camera).is_some()
     }
 
     /// Rays traced so far.

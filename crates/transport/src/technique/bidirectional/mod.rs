@@ -68,6 +68,11 @@ impl Bidirectional {
         self.memory.rays()
     }
 
+    /// Its memory, for rays of other kinds.
+    pub(super) fn memory(&mut self) -> &mut WorldMemory {
+        &mut self.memory
+    }
+
     /// What the last sample put elsewhere on the film than where its camera ray came from.
     pub fn splats(&self) -> &[Splat] {
         self.light_path.splats()

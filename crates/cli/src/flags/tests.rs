@@ -1,0 +1,53 @@
+//! Command lines, good and bad.
+
+use super::*;
+
+fn parsed(words: &[&str]) -> Result<Arguments, String> {
+    parse(words.iter().map(OsString::from))
+}
+
+#[test]
+fn options_stand_anywhere_with_one_dash_or_two() {
+    let a = parsed(&["-haltspp", "64", "a.igs", "--o", "x.png", "-t", "2", "--seed=7"]).unwrap();
+    assert_eq!(a.files, ["a.igs"]);
+    assert_eq!(a.output.as_deref(), Some("x.png"));
+    assert_eq!(a.seed, Some(7));
+    let settings: Vec<_> = a.settings.iter().map(|s| (s.option, s.setting, s.value.as_str())).collect();
+    assert_eq!(
+        settings,
+        [
+            ("-haltspp", "halt_samples_per_pixel", "64"),
+            ("-t", "num_threads", "2"),
+            ("", "auto_choose_num_threads", "false")
+        ]
+    );
+}
+
+#[test]
+fn mistakes_get_a_helpful_answer() {
+    let error = |words: &[&str]| parsed(words).unwrap_err();
+    assert_eq!(error(&["-haltsp", "3"]), "unknown option -haltsp; did you mean -haltspp?");
+    assert_eq!(error(&["-halt"]), "-halt needs a value: -halt SECONDS");
+    assert_eq!(
+        error(&["a.igs", "b.igs"]),
+        "two scenes are given, a.igs and b.igs; one is rendered at a time"
+    );
+    assert!(error(&["--merge", "a.igi", "-o", "b.igi"]).contains("two or more"));
+    assert!(error(&["--merge", "a.igi", "b.igi"]).contains("-o SUM.igi"));
+    assert!(error(&["--merge", "a.igi", "b.igi", "-o", "a.igs"]).contains("end with .igi"));
+    assert!(error(&["--tonemap", "a.igs", "a.igi"]).contains("PICTURE.png"));
+    assert!(error(&["--tonemap", "a.igs", "a.igi", "b.png", "-o", "c.png"]).contains("third file"));
+    assert_eq!(error(&["--check=1"]), "-check takes no value");
+    assert_eq!(error(&["-n", "m"]), "-n is not in this version yet");
+    assert!(error(&["-seed", "-3"]).contains("whole number"));
+}
+
+#[test]
+fn every_option_is_in_the_help_and_has_a_name_of_its_own() {
+    let help = help();
+    for (i, flag) in FLAGS.iter().enumerate() {
+        assert!(help.contains(&format!("  -{}", flag.name)));
+        assert!(FLAGS[i + 1..].iter().all(|f| f.name != flag.name));
+    }
+    assert!(help.lines().all(|l| l.len() <= 100), "{help}");
+}
