@@ -3,9 +3,12 @@
 
 use indigo_math::warp::INV_PI;
 use indigo_math::{Float, Real};
+use indigo_spectrum::SampledSpectrum;
 
 /// Nodes of a row: what it takes for 1e-4 at facets from the roughest to an exponent of 10,000.
 const NODES: usize = 32;
+/// What stands for an albedo of 1.
+const STEPS: Real = 65_535.0;
 /// Nodes and weights of Gauss's rule of eight points on [-1, 1], the positive half.
 const GAUSS: [(f64, f64); 4] = [
     (0.183_434_642_495_649_8, 0.362_683_783_378_362),
@@ -21,7 +24,8 @@ const GAUSS: [(f64, f64); 4] = [
 /// (Catmull & Rom 1974).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AlbedoRow {
-    albedo: [Real; NODES],
+    /// In steps of 1 / 65535, a tenth of the row's own error: paths carry rows about with their models.
+    albedo: [u16; NODES],
     /// k.
     scale: Real,
     /// ∫ 2 μ E(μ) dμ: the share of even light from everywhere that is scattered.
@@ -37,7 +41,7 @@ impl AlbedoRow {
             albedo(root * root).clamp(0.0, 1.0)
         };
         let mut row = Self {
-            albedo: std::array::from_fn(|i| Real::from_f64(at(i))),
+            albedo: std::array::from_fn(|i| (at(i) * STEPS.to_f64()).round() as u16),
             scale: Real::from_f64(scale),
             average: 0.0,
         };
@@ -55,7 +59,8 @@ impl AlbedoRow {
         let mix = |a: Real, b: Real| a + (b - a) * (place - low as Real);
         let (a, b) = (&rows[low], &rows[low + 1]);
         Self {
-            albedo: std::array::from_fn(|i| mix(a.albedo[i], b.albedo[i])),
+            // Rounded: they are not negative.
+            albedo: std::array::from_fn(|i| (mix(a.albedo[i].into(), b.albedo[i].into()) + 0.5) as u16),
             scale: mix(a.scale, b.scale),
             average: mix(a.average, b.average),
         }
@@ -68,7 +73,7 @@ impl AlbedoRow {
         let t = root * (1.0 + self.scale) / (root + self.scale) * (NODES - 1) as Real;
         let cell = (t as usize).min(NODES - 2);
         let x = t - cell as Real;
-        let v = |i: usize| self.albedo[i];
+        let v = |i: usize| Real::from(self.albedo[i]);
         let (a, b) = (v(cell), v(cell + 1));
         // At the ends the slope is that of the parabola through the last three nodes.
         let slope_a = if cell == 0 { 2.0 * b - 1.5 * a - 0.5 * v(2) } else { 0.5 * (b - v(cell - 1)) };
@@ -77,7 +82,7 @@ impl AlbedoRow {
         let rise = b - a;
         let value = a + x
             * (slope_a + x * (3.0 * rise - 2.0 * slope_a - slope_b + x * (slope_a + slope_b - 2.0 * rise)));
-        value.clamp(0.0, 1.0)
+        (value / STEPS).clamp(0.0, 1.0)
     }
 
     /// ∫ 2 μ E(μ) dμ.
@@ -90,9 +95,63 @@ impl AlbedoRow {
     /// is 1 − E: (1 − E(μo)) (1 − E(μi)) / (π (1 − Ē)) (Kelemen & Szirmay-Kalos 2001; Kulla & Conty 2017).
     #[inline]
     pub fn complement(&self, cos_o: Real, cos_i: Real) -> Real {
-        let lost = 1.0 - self.average;
-        if lost <= 0.0 { 0.0 } else { (1.0 - self.at(cos_o)) * (1.0 - self.at(cos_i)) * (INV_PI / lost) }
+        complement(self.at(cos_o), self.at(cos_i), self.average)
     }
+}
+
+/// A row for each lane, linear between two.
+#[derive(Clone, Copy, Debug)]
+pub struct LaneRows {
+    low: AlbedoRow,
+    high: AlbedoRow,
+    /// The share of `high`; `None` where `low` is that of all lanes.
+    mix: Option<SampledSpectrum>,
+}
+
+impl LaneRows {
+    /// Between two rows, by each lane's share of the second.
+    #[inline]
+    pub fn between(low: AlbedoRow, high: AlbedoRow, mix: SampledSpectrum) -> Self {
+        Self { low, high, mix: (!mix.is_black()).then_some(mix) }
+    }
+
+    /// E(μ).
+    #[inline]
+    pub fn at(&self, cos: Real) -> SampledSpectrum {
+        self.mixed(|row| row.at(cos))
+    }
+
+    /// ∫ 2 μ E(μ) dμ.
+    #[inline]
+    pub fn average(&self) -> SampledSpectrum {
+        self.mixed(AlbedoRow::average)
+    }
+
+    /// See [`AlbedoRow::complement`].
+    #[inline]
+    pub fn complement(&self, cos_o: Real, cos_i: Real) -> SampledSpectrum {
+        if self.mix.is_none() {
+            return SampledSpectrum::splat(self.low.complement(cos_o, cos_i));
+        }
+        let (o, i, average) = (self.at(cos_o), self.at(cos_i), self.average());
+        SampledSpectrum::from_fn(|lane| complement(o[lane], i[lane], average[lane]))
+    }
+
+    /// What is linear in the rows.
+    #[inline]
+    fn mixed(&self, of: impl Fn(&AlbedoRow) -> Real) -> SampledSpectrum {
+        let low = of(&self.low);
+        let Some(mix) = self.mix else { return SampledSpectrum::splat(low) };
+        let rise = of(&self.high) - low;
+        mix.map(|share| low + rise * share)
+    }
+}
+
+/// (1 - E(μo)) (1 - E(μi)) / (π (1 - Ē)); nothing where nothing is lost.
+#[inline]
+fn complement(albedo_o: Real, albedo_i: Real, average: Real) -> Real {
+    let lost = 1.0 - average;
+    if lost <= 0.0 { 0.0 } else { (1.0 - albedo_o) * (1.0 - albedo_i) * (INV_PI / lost) }
 }
 
 /// ∫ f over `[lo, hi]` in so many pieces, by Gauss's rule of eight points.

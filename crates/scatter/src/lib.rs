@@ -9,6 +9,7 @@ mod bump;
 mod directional_albedo;
 mod facet_albedo;
 pub mod fresnel;
+mod immersion;
 pub mod materials;
 pub mod media;
 mod medium_stack;

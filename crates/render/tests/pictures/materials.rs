@@ -9,9 +9,10 @@ use super::common::{Measured, measure, scene_with};
 use indigo_geom::Ray;
 use indigo_imaging::{LinearImage, Metadata, exr};
 use indigo_math::{Real, Vec3};
+use indigo_scatter::media::Cauchy;
 use indigo_scatter::{Interface, Mode, ShadingPoint};
 use indigo_scene::Scene;
-use indigo_spectrum::SampledWavelengths;
+use indigo_spectrum::{SampledSpectrum, SampledWavelengths};
 use indigo_testkit::quadrature::sphere;
 
 pub const RADIANCE: f64 = 1.0e5;
@@ -49,6 +50,8 @@ pub fn sheet_with(kind: &str, degrees: f64, more_settings: &str, others: &str) -
     scene_with(&text, files)
 }
 
+/// n and k of that gold at 550 nm.
+const GOLD_550: [f64; 2] = [0.424149, 2.472051];
 const GOLD: &[u8] = include_bytes!("../../../../nkdata/au.nk");
 
 fn sheet(kind: &str, degrees: f64) -> Scene {
@@ -257,6 +260,45 @@ fn every_element_of_phong_has_its_effect() {
     for off in [0.0, 10.0] {
         let (map, number) = (gloss(&mapped, 30.0, off), gloss(&coat(1.5, 100.0, ""), 30.0, off));
         assert!((map / number - 1.0).abs() < 1e-4, "{map} {number}");
+    }
+}
+
+/// Under water the quotient of the indices counts: ((1.5 - 1.333) / (1.5 + 1.333))² instead of 0.04.
+#[test]
+fn coats_and_metals_reflect_by_the_index_of_what_lies_outside() {
+    // Somewhere in the scene is water, of which light of each wavelength has an index of its own.
+    let water = Cauchy { a: 1.324, b: 0.003 };
+    let content = basic(water.a, &uniform(0.0), "")
+        .replace("</ior>", &format!("</ior><cauchy_b_coeff>{}</cauchy_b_coeff>", water.b));
+    let others = medium("water", 10, &content)
+        + &super::common::text::specular("wet", "water")
+        + &super::common::text::sphere([50.0, 0.0, 0.0], 1.0, "wet");
+    let seen = |kind: &str, degrees: f64, index: f64| {
+        let outside = SampledSpectrum::splat(index as Real);
+        let interface = Interface { above: outside, below: outside };
+        point(&sheet_with(kind, degrees, "", &others), degrees, 550.0, interface)
+    };
+    let along = |kind: &str, index: f64| {
+        seen(kind, 0.0, index).eval(Vec3::new(0.0, 0.0, 1.0), Mode::Radiance).f_cos.hero() as f64
+    };
+    let reflectance = |n: f64, k: f64| ((n - 1.0).powi(2) + k * k) / ((n + 1.0).powi(2) + k * k);
+    let inside = f64::from(water.at(550.0));
+    let coat = phong("<ior>1.5</ior><exponent>1000</exponent>");
+    let gold = phong("<nk_data>au.nk</nk_data><exponent>1000000</exponent>");
+    for (kind, n, k) in [(coat, 1.5, 0.0), (gold, GOLD_550[0], GOLD_550[1])] {
+        let quotient = along(&kind, inside) / along(&kind, 1.0);
+        let expected = reflectance(n / inside, k / inside) / reflectance(n, k);
+        assert!((quotient / expected - 1.0).abs() < 2e-3, "{kind}: {quotient} and not {expected}");
+    }
+    // Neither loses nor makes light: what the coat reflects is taken from the ground.
+    let white = phong(&format!(
+        "<ior>1.5</ior><exponent>20</exponent><diffuse_albedo_spectrum>{WHITE}</diffuse_albedo_spectrum>"
+    ));
+    for index in [1.0, inside] {
+        for degrees in [0.0, 60.0] {
+            let albedo = albedo_of(&seen(&white, degrees, index));
+            assert!((albedo - 1.0).abs() < 4e-4, "{index}, {degrees}°: {albedo}");
+        }
     }
 }
 

@@ -253,6 +253,26 @@ fn what_is_not_transparent_only_reflects() {
     assert_luminance("mirror", &measure(&scene, 8, 64), 0.04);
 }
 
+/// A white tile under a coat, in a ball of water with the camera: nothing is lost, and radiance in water is its index
+/// squared times that in air.
+#[test]
+fn a_glazed_white_tile_under_water_is_not_to_be_told_from_the_water() {
+    let glaze = format!(
+        "<material><name>glaze</name><phong><ior>1.5</ior><exponent>100</exponent>\
+         <diffuse_albedo_spectrum>{}</diffuse_albedo_spectrum></phong></material>",
+        uniform(1.0)
+    );
+    let tile = Mesh::cube(0.3).text("cube", "glaze") + &model("cube");
+    let water = clear("w", 10, 1.333) + &specular("surface", "w");
+    let parts = [glaze, water, tile, sphere([0.0; 3], 5.0, "surface")];
+    let mut scene = in_uniform_light([0.0, -2.0, 0.0], 0.05, &parts);
+    for mode in &MODES[..2] {
+        let measured = luminance_in_mode(&mut scene, *mode, 16, 96);
+        let expected = AROUND * NITS_PER_UNIFORM * 1.333 * 1.333;
+        assert_near(&mode.to_string(), &measured, expected, 1.5e-3);
+    }
+}
+
 /// A camera whose lens lies exactly on the surface of a medium sees out of it and into it.
 #[test]
 fn a_camera_on_an_interface_knows_on_which_side_each_ray_leaves() {

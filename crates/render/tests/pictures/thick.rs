@@ -180,3 +180,38 @@ fn a_ball_of_milk_is_what_another_monte_carlo_finds() {
         assert_same("milk", &over_surroundings, &expected);
     }
 }
+
+/// The third table of `docs/theory/rough-glass.md`: what a white body of fog under a rough surface shows of even light,
+/// seen through its middle, and the same body without the fog.
+#[test]
+fn white_bodies_under_rough_surfaces_are_as_dark_as_stated() {
+    const PAGE: &str = include_str!("../../../../docs/theory/rough-glass.md");
+    let table = PAGE.split("<!-- table -->").nth(3).expect("three tables");
+    let cells =
+        |line: &str| line.split('|').filter_map(|cell| cell.trim().parse().ok()).collect::<Vec<f64>>();
+    let rows = table.lines().map(cells).filter(|row| row.len() == 3);
+    let (mut count, mut faults) = (0, vec![]);
+    for row in rows {
+        let &[exponent, clear, white] = row.as_slice() else { continue };
+        for (coefficient, stated) in [(0.0, clear), (2000.0, white)] {
+            let surface = format!(
+                "<material><name>rough</name><glossy_transparent><internal_medium_name>m</internal_medium_name>\
+                 <exponent>{exponent}</exponent></glossy_transparent></material>"
+            );
+            let ball = surface + &sphere([0.0; 3], RADIUS, "rough");
+            let mut scene = in_even_light(1.4, [0.0, coefficient], "<uniform/>", &ball);
+            let measured = luminance_in_mode(&mut scene, MODES[0], 16, 48);
+            let share = measured.mean() / (AROUND * NITS_PER_UNIFORM);
+            let what = format!("exponent {exponent}, {coefficient}/m: {share:.4}, and not {stated}");
+            let error = measured.std_error() / (AROUND * NITS_PER_UNIFORM);
+            assert!(error < 2.5e-3, "{what}, ±{error:.1e}");
+            // Half of the last digit, and four standard errors.
+            if (share - stated).abs() > 0.005 + 4.0 * error {
+                faults.push(what);
+            }
+        }
+        count += 1;
+    }
+    assert_eq!(count, 4);
+    assert!(faults.is_empty(), "{faults:#?}");
+}

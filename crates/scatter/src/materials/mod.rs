@@ -10,7 +10,7 @@ pub mod oren_nayar;
 pub mod phong;
 pub mod specular;
 
-use crate::media::MediumId;
+use crate::media::{Medium, MediumId};
 use crate::scatter::{Crossing, LocalSample, Scatter};
 use indigo_decl::{Alternatives, Block, Field, Kind, Later, Node, Presence};
 use indigo_diag::Sink;
@@ -85,6 +85,9 @@ pub trait SurfaceKind {
     fn internal_medium(&self) -> Option<MediumId> {
         None
     }
+
+    /// Makes ready for the media of the scene, of which any may lie outside: called once, when all of them are known.
+    fn immerse(&mut self, _media: &[Medium]) {}
 
     /// Whether light can ever pass as if nothing were there: there is no leaf, or the surface divides a
     /// medium from itself.
@@ -184,6 +187,14 @@ macro_rules! registry {
                     Self::Null => None,
                     Self::Blend(blend) => blend.internal_medium(),
                     $(Self::$material(m) => m.internal_medium(),)*
+                }
+            }
+
+            /// See [`SurfaceKind::immerse`].
+            pub fn immerse(&mut self, media: &[Medium]) {
+                match self {
+                    Self::Null | Self::Blend(_) => {}
+                    $(Self::$material(m) => m.immerse(media),)*
                 }
             }
 

@@ -11,11 +11,16 @@
 //! - on a **metal** E is that of white facets, and the same function, coloured by the further bounces, gives back
 //!   what is lost among facets (Kulla & Conty 2017, "Revisiting Physically Based Shading at Imageworks"): a
 //!   white metal has albedo 1 at any exponent.
+//!
+//! Indices of coats and metals are against vacuum. What is reflected depends on their quotient by the index of what lies
+//! outside, so that rows are kept for each medium of the scene.
 
 use super::fields::{ALBEDO_TEXTURE, BUMP_MAP, COLOUR_DEPRECATED, LATER, bump_map};
 use super::{MaterialContext, MaterialResources, SurfaceKind};
-use crate::directional_albedo::AlbedoRow;
+use crate::directional_albedo::{AlbedoRow, LaneRows};
 use crate::fresnel::{conductor, dielectric, diffuse_average, schlick};
+use crate::immersion::{self, ByIndex};
+use crate::media::Medium;
 use crate::microfacet::Microfacets;
 use crate::reflectance::Reflectance;
 use crate::scatter::{Crossing, LocalSample, Scatter};
@@ -34,7 +39,8 @@ pub static BLOCK: Block = Block::new(
     "A glossy surface with a Phong lobe: by default a dielectric coat of index `ior` over a diffuse \
      ground. With `nk_data` it is a metal of measured complex index; with \
      `specular_reflectivity_spectrum` a metal of the given reflectivity. Where several are given, \
-     `nk_data` counts before `specular_reflectivity_spectrum`, and that before `ior` and the diffuse ground.",
+     `nk_data` counts before `specular_reflectivity_spectrum`, and that before `ior` and the diffuse ground. \
+     Under water, or in another medium, coats and measured metals reflect by the quotient of both indices.",
     &[
         Field::new(
             "diffuse_albedo_spectrum",
@@ -109,6 +115,8 @@ pub static BLOCK: Block = Block::new(
 pub struct Phong {
     kind: Kind,
     gloss: Gloss,
+    /// Albedo of the facets, of the coat or of white facets: a row, or one for each width of a map of exponents.
+    rows: ByIndex<Box<[AlbedoRow]>>,
     bump: Option<TextureId>,
 }
 
@@ -118,20 +126,21 @@ enum Kind {
     /// A dielectric of an index of refraction over a diffuse ground.
     Coat { eta: Real, ground: Reflectance },
     /// A metal of a complex index n + ik, with its average reflectance.
-    Measured { n: Spectrum, k: Spectrum, average: Spectrum },
-    /// A metal of a reflectance along its normal.
+    Measured { n: Spectrum, k: Spectrum, average: ByIndex<Spectrum> },
+    /// A metal of a reflectance along its normal, whatever lies outside.
     Schlick { r0: Spectrum },
 }
 
-/// How smooth the surface is, with the albedo of its facets.
-#[derive(Clone, Debug)]
+/// How smooth the surface is.
+#[derive(Clone, Copy, Debug)]
 enum Gloss {
-    Uniform(Microfacets, AlbedoRow),
-    /// By a map of exponents; rows for widths at equal steps of their fourth root from 0 to 1.
-    Map(TextureId, Box<[AlbedoRow]>),
+    Uniform(Microfacets),
+    /// By a map of exponents.
+    Map(TextureId),
 }
 
-/// Rows for exponent maps: between two of them albedos are linear to 3e-4 at exponents up to 10,000.
+/// Rows for exponent maps, at equal steps of the fourth root of the width from 0 to 1: between two of them albedos are
+/// linear to 3e-4 at exponents up to 10,000.
 const MAP_ROWS: usize = 97;
 
 impl Phong {
@@ -144,7 +153,7 @@ impl Phong {
             disregard(&coat);
             disregard(&["specular_reflectivity_spectrum"]);
             let [n, k] = resources.complex_index(node, "nk_data");
-            Kind::Measured { average: average_of_metal(&n, &k), n, k }
+            Kind::Measured { average: ByIndex::new(&[1.0], |_| average_of_metal(&n, &k, 1.0)), n, k }
         } else if let Some(spectrum) = node.node("specular_reflectivity_spectrum") {
             disregard(&coat);
             Kind::Schlick { r0: read::reflectance(spectrum, resources.sink()) }
@@ -153,35 +162,50 @@ impl Phong {
             let ground = Reflectance::build(node, ground, Some("diffuse"), resources);
             Kind::Coat { eta: Real::from_f64(index_of_coat(node, resources.sink())), ground }
         };
-        let gloss = kind.gloss(node, resources);
-        Self { kind, gloss, bump: bump_map(node, resources) }
+        let gloss = Gloss::build(node, resources);
+        Self { rows: kind.rows(gloss, &[1.0]), kind, gloss, bump: bump_map(node, resources) }
     }
 
     /// The model at a point.
     #[inline]
     pub fn leaf(&self, context: &MaterialContext, uv: impl Fn(u32) -> Vec2) -> PhongLeaf {
-        let (facets, row) = match &self.gloss {
-            Gloss::Uniform(facets, row) => (*facets, *row),
-            Gloss::Map(id, rows) => {
-                let map = &context.textures[*id as usize];
-                let facets = Microfacets::of_exponent(map.scalar(uv(map.uv_set)));
-                (facets, AlbedoRow::between(rows, facets.width().sqrt().sqrt()))
+        let facets = match self.gloss {
+            Gloss::Uniform(facets) => facets,
+            Gloss::Map(id) => {
+                let map = &context.textures[id as usize];
+                Microfacets::of_exponent(map.scalar(uv(map.uv_set)))
             }
         };
-        let lambda = context.lambda;
+        let (lambda, outside) = (context.lambda, context.interface.above);
+        let rows = self.rows_at(facets, outside);
         let (fresnel, base) = match &self.kind {
-            Kind::Coat { eta, ground } => (Fresnel::Coat { eta: *eta }, ground.eval(context, uv)),
-            Kind::Measured { n, k, average } => (
-                Fresnel::Conductor { n: n.eval(lambda), k: k.eval(lambda) },
-                between(average.eval(lambda), &row),
-            ),
+            Kind::Coat { eta, ground } => {
+                (Fresnel::Coat { eta: SampledSpectrum::splat(*eta) / outside }, ground.eval(context, uv))
+            }
+            Kind::Measured { n, k, average } => {
+                let (low, high, mix) = average.around(outside);
+                let (low, high) = (low.eval(lambda), high.eval(lambda));
+                let fresnel = Fresnel::Conductor { n: n.eval(lambda) / outside, k: k.eval(lambda) / outside };
+                (fresnel, between(low + (high - low) * mix, &rows))
+            }
             Kind::Schlick { r0 } => {
                 let r0 = r0.eval(lambda);
                 // 2 ∫ (1 - μ)⁵ μ dμ = 1/21.
-                (Fresnel::Schlick { r0 }, between(r0 + (SampledSpectrum::ONE - r0) / 21.0, &row))
+                (Fresnel::Schlick { r0 }, between(r0 + (SampledSpectrum::ONE - r0) / 21.0, &rows))
             }
         };
-        PhongLeaf { facets, fresnel, base, row }
+        PhongLeaf { facets, fresnel, base, rows }
+    }
+
+    /// The rows of facets for the indices of what lies outside.
+    #[inline]
+    fn rows_at(&self, facets: Microfacets, outside: SampledSpectrum) -> LaneRows {
+        let (low, high, mix) = self.rows.around(outside);
+        let row = |rows: &[AlbedoRow]| match rows {
+            [row] => *row,
+            rows => AlbedoRow::between(rows, facets.width().sqrt().sqrt()),
+        };
+        LaneRows::between(row(low), row(high), mix)
     }
 }
 
@@ -189,26 +213,53 @@ impl SurfaceKind for Phong {
     fn bump_map(&self) -> Option<TextureId> {
         self.bump
     }
+
+    fn immerse(&mut self, media: &[Medium]) {
+        let indices = immersion::indices(media);
+        // Air alone is what it was built for.
+        if indices.len() == 1 {
+            return;
+        }
+        if let Kind::Measured { n, k, average } = &mut self.kind {
+            *average = ByIndex::new(&indices, |outside| average_of_metal(n, k, outside));
+        }
+        // Those of white facets are the same everywhere.
+        if let Kind::Coat { .. } = self.kind {
+            self.rows = self.kind.rows(self.gloss, &indices);
+        }
+    }
 }
 
-impl Kind {
-    fn gloss(&self, node: &Node, resources: &mut dyn MaterialResources) -> Gloss {
-        let row = |width: Real| {
-            AlbedoRow::of_facets(Microfacets::of_width(width), |cos| match self {
-                Self::Coat { eta, .. } => dielectric(cos, *eta).reflectance,
-                // Of white facets: what metals lack is given back in white, and coloured by the way.
-                _ => 1.0,
-            })
-        };
+impl Gloss {
+    fn build(node: &Node, resources: &mut dyn MaterialResources) -> Self {
         if let Some(map) = node.node("exponent_map") {
             node.disregard_field("exponent");
-            let width = |i: usize| (i as Real / (MAP_ROWS - 1) as Real).powi(4);
-            return Gloss::Map(resources.texture(map), (0..MAP_ROWS).map(|i| row(width(i))).collect());
+            return Self::Map(resources.texture(map));
         }
         // The stand-in is for scenes that lack both, which has been reported.
         let exponent = node.opt_real("exponent").map_or(1.0, |n| n.value);
-        let facets = Microfacets::of_exponent(Real::from_f64(exponent));
-        Gloss::Uniform(facets, row(facets.width()))
+        Self::Uniform(Microfacets::of_exponent(Real::from_f64(exponent)))
+    }
+}
+
+impl Kind {
+    /// The rows of the facets' albedo for some indices outside.
+    fn rows(&self, gloss: Gloss, outside: &[Real]) -> ByIndex<Box<[AlbedoRow]>> {
+        let width = |i: usize| (i as Real / (MAP_ROWS - 1) as Real).powi(4);
+        ByIndex::new(outside, |outside| match gloss {
+            Gloss::Uniform(facets) => vec![self.row(facets, outside)].into_boxed_slice(),
+            Gloss::Map(_) => {
+                (0..MAP_ROWS).map(|i| self.row(Microfacets::of_width(width(i)), outside)).collect()
+            }
+        })
+    }
+
+    fn row(&self, facets: Microfacets, outside: Real) -> AlbedoRow {
+        AlbedoRow::of_facets(facets, |cos| match self {
+            Self::Coat { eta, .. } => dielectric(cos, eta / outside).reflectance,
+            // Of white facets: what metals lack is given back in white, and coloured by the way.
+            _ => 1.0,
+        })
     }
 }
 
@@ -226,13 +277,13 @@ fn index_of_coat(node: &Node, sink: &mut Sink) -> f64 {
     1.5
 }
 
-/// The average reflectance of a metal, at 5 nm.
-fn average_of_metal(n: &Spectrum, k: &Spectrum) -> Spectrum {
+/// The average reflectance of a metal under an index outside, at 5 nm.
+fn average_of_metal(n: &Spectrum, k: &Spectrum, outside: Real) -> Spectrum {
     let values: Vec<f64> = (0..=94)
         .map(|i| {
             let lambda = 360.0 + 5.0 * f64::from(i);
             let (n, k) = (Real::from_f64(n.at(lambda)), Real::from_f64(k.at(lambda)));
-            diffuse_average(|cos| conductor(cos, n, k))
+            diffuse_average(|cos| conductor(cos, n / outside, k / outside))
         })
         .collect();
     Spectrum::regular_tabulated(360e-9, 830e-9, &values).unwrap_or(Spectrum::uniform(1.0))
@@ -241,14 +292,18 @@ fn average_of_metal(n: &Spectrum, k: &Spectrum) -> Spectrum {
 /// The factor of light that is scattered on between facets of an average reflectance: each bounce costs that
 /// much, and the share of the row gets out after each (Kulla & Conty 2017, section "Adding color").
 #[inline]
-fn between(average: SampledSpectrum, row: &AlbedoRow) -> SampledSpectrum {
-    average.map(|f| f * f * row.average() / (1.0 - f * (1.0 - row.average())))
+fn between(average: SampledSpectrum, rows: &LaneRows) -> SampledSpectrum {
+    let out = rows.average();
+    SampledSpectrum::from_fn(|lane| {
+        let f = average[lane];
+        f * f * out[lane] / (1.0 - f * (1.0 - out[lane]))
+    })
 }
 
 /// How much a facet reflects.
 #[derive(Clone, Copy, Debug)]
 enum Fresnel {
-    Coat { eta: Real },
+    Coat { eta: SampledSpectrum },
     Conductor { n: SampledSpectrum, k: SampledSpectrum },
     Schlick { r0: SampledSpectrum },
 }
@@ -257,7 +312,12 @@ impl Fresnel {
     #[inline]
     fn eval(&self, cos: Real) -> SampledSpectrum {
         match self {
-            Self::Coat { eta } => SampledSpectrum::splat(dielectric(cos, *eta).reflectance),
+            Self::Coat { eta } => {
+                let of = |eta: Real| dielectric(cos, eta).reflectance;
+                // Mostly the same at all wavelengths.
+                let hero = of(eta.hero());
+                eta.map(|lane| if lane == eta.hero() { hero } else { of(lane) })
+            }
             Self::Conductor { n, k } => SampledSpectrum::from_fn(|lane| conductor(cos, n[lane], k[lane])),
             Self::Schlick { r0 } => r0.map(|r0| schlick(cos, r0)),
         }
@@ -283,17 +343,17 @@ pub struct PhongLeaf {
     /// The share of the light not reflected at once that is scattered in the end.
     base: SampledSpectrum,
     /// Albedo of the facets: of the coat, or of white facets.
-    row: AlbedoRow,
+    rows: LaneRows,
 }
 
 impl PhongLeaf {
     /// The share of draws that the facets get.
     #[inline]
     fn gloss_share(&self, wo: Vec3) -> LanePdf {
-        let albedo = self.row.at(wo.z);
+        let albedo = self.rows.at(wo.z);
         let tint = self.fresnel.tint(wo.z);
         LanePdf::from_fn(|lane| {
-            let (gloss, base) = (tint[lane] * albedo, self.base[lane] * (1.0 - albedo));
+            let (gloss, base) = (tint[lane] * albedo[lane], self.base[lane] * (1.0 - albedo[lane]));
             if base > 0.0 { gloss / (gloss + base) } else { 1.0 }
         })
     }
@@ -306,7 +366,7 @@ impl Scatter for PhongLeaf {
             return SampledSpectrum::ZERO;
         };
         let gloss = self.facets.density(h) * self.facets.shared_over_cosines(wo, wi);
-        self.fresnel.eval(wo.dot(h)) * gloss + self.base * self.row.complement(wo.z, wi.z)
+        self.fresnel.eval(wo.dot(h)) * gloss + self.base * self.rows.complement(wo.z, wi.z)
     }
 
     #[inline]

@@ -52,16 +52,17 @@ impl Cauchy {
         Self { a: ior, b: 0.0 }
     }
 
+    /// The index at a wavelength, nm.
+    #[inline]
+    pub fn at(&self, nm: Real) -> Real {
+        // 1 µm² is 10^6 nm².
+        Real::from_f64(self.a) + Real::from_f64(self.b * 1e6) / (nm * nm)
+    }
+
     /// The indices at some wavelengths.
     #[inline]
     pub fn eval(&self, lambda: &SampledWavelengths) -> SampledSpectrum {
-        let a = Real::from_f64(self.a);
-        if self.b == 0.0 {
-            return SampledSpectrum::splat(a);
-        }
-        // 1 µm² is 10^6 nm².
-        let b = Real::from_f64(self.b * 1e6);
-        SampledSpectrum(lambda.lambda.map(|l| a + b / (l * l)))
+        SampledSpectrum(lambda.lambda.map(|nm| self.at(nm)))
     }
 }
 

@@ -33,6 +33,7 @@ const EXAMPLES: &[&str] = &[
     "<phong><nk_data>gold.nk</nk_data><exponent>0.1</exponent></phong>",
     "<phong><nk_data>gold.nk</nk_data><exponent>60</exponent></phong>",
     "<phong><specular_reflectivity_spectrum><uniform><value>1</value></uniform></specular_reflectivity_spectrum><exponent>3</exponent></phong>",
+    "<phong><specular_reflectivity_spectrum><uniform><value>1</value></uniform></specular_reflectivity_spectrum><exponent>45</exponent></phong>",
     "<glossy_transparent><internal_medium_name>glass</internal_medium_name><exponent>1</exponent></glossy_transparent>",
     "<glossy_transparent><internal_medium_name>glass</internal_medium_name><exponent>60</exponent></glossy_transparent>",
     "<glossy_transparent><internal_medium_name>glass</internal_medium_name><exponent>20000</exponent></glossy_transparent>",

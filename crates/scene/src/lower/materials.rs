@@ -202,7 +202,11 @@ impl<'a> MaterialTable<'a> {
 
     /// Materials, textures and media in the order of their numbers.
     pub(super) fn into_arenas(self) -> (Vec<Material>, Vec<Texture>, Vec<Medium>) {
-        (self.materials, self.textures.into_arena(), self.media.into_arena())
+        let (mut materials, media) = (self.materials, self.media.into_arena());
+        for material in &mut materials {
+            material.immerse(&media);
+        }
+        (materials, self.textures.into_arena(), media)
     }
 }
 

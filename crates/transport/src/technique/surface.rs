@@ -47,7 +47,7 @@ pub(super) fn shade(
     match material.leaf(&context, uv) {
         Some(leaf) => {
             let shading = ShadingPoint::new(leaf, at.n_g, shading_normal(scene, at, material), wo);
-            Surface::Scatters(Vertex::on_surface(at, shading, above, below))
+            Surface::Scatters(Vertex::on_surface(at, &shading, above, below))
         }
         None => Surface::Unseen(below),
     }

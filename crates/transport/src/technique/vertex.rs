@@ -33,11 +33,11 @@ impl Vertex {
     #[inline]
     pub fn on_surface(
         at: &SurfacePoint,
-        shading: ShadingPoint,
+        shading: &ShadingPoint,
         above: MediumStack,
         below: MediumStack,
     ) -> Self {
-        Self { point: Point::of_surface(at), model: Model::Surface(shading), above, below }
+        Self { point: Point::of_surface(at), model: Model::Surface(*shading), above, below }
     }
 
     /// In a medium, reached by a flight that goes in direction `-wo`.
