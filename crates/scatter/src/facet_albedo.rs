@@ -121,6 +121,26 @@ mod tests {
         }
     }
 
+    /// The table of the page on gloss, by the other way.
+    #[test]
+    fn stated_gloss_is_right() {
+        const PAGE: &str = include_str!("../../../docs/theory/gloss.md");
+        let table = PAGE.split("<!-- table -->").nth(1).expect("a table");
+        let cells = |line: &str| line.split('|').filter_map(|cell| cell.trim().parse().ok()).collect();
+        let rows: Vec<Vec<f64>> = table.lines().map(cells).filter(|row: &Vec<f64>| row.len() == 10).collect();
+        assert_eq!(rows.len(), 6);
+        for row in rows {
+            let views =
+                [None, Some(1.5), Some(2.5)].into_iter().flat_map(|eta| [0.0, 60.0, 80.0].map(|d| (eta, d)));
+            for ((eta, degrees), stated) in views.zip(&row[1..]) {
+                let reflectance = |cos: Real| eta.map_or(1.0, |eta| dielectric(cos, eta).reflectance);
+                let exact = over_directions(row[0], f64::to_radians(degrees).cos(), reflectance);
+                let what = format!("exponent {}, {eta:?}, {degrees}°: {exact}, and not {stated}", row[0]);
+                assert!((exact - stated).abs() < 6e-4, "{what}");
+            }
+        }
+    }
+
     /// Seen along the surface, white facets send everything up; and so does a mirror from anywhere.
     #[test]
     fn limits_are_exact() {

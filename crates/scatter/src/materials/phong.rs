@@ -14,6 +14,8 @@
 //!
 //! Indices of coats and metals are against vacuum. What is reflected depends on their quotient by the index of what lies
 //! outside, so that rows are kept for each medium of the scene.
+//!
+//! `docs/theory/gloss.md` has a table of E.
 
 use super::fields::{ALBEDO_TEXTURE, BUMP_MAP, COLOUR_DEPRECATED, LATER, bump_map};
 use super::{MaterialContext, MaterialResources, SurfaceKind};
