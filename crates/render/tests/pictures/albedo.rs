@@ -157,7 +157,7 @@ fn every_material_shows_its_albedo_in_even_light() {
         for (degrees, mode) in views {
             let mut scene = sheet_with(&kind, degrees, "", &others);
             // A chain's neighbours are alike, so it takes more of them.
-            let passes = if mode.metropolis { 6144 } else { 768 };
+            let passes = if mode.metropolis { 12_288 } else { 768 };
             let measured = luminance_in_mode(&mut scene, mode, 16, passes);
             let expected = shows(degrees) * RADIANCE * NITS_PER_UNIFORM;
             assert_near(&format!("{kind} at {degrees}°, {mode}"), &measured, expected, 2e-3);
