@@ -45,7 +45,7 @@ pub static CAMERA: Block = Block::new(
             Presence::Required,
             "Width of the sensor over its height; should be that of the picture.",
         )
-        .range(Range::Above(0.0)),
+        .range(Range::Within(1e-3, 1e3)),
         Field::new("sensor_width", Kind::Real, Presence::Required, "Width of the sensor, such as 0.036.")
             .unit("m")
             .range(Range::Above(0.0)),

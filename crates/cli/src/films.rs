@@ -2,7 +2,7 @@
 
 use crate::console::Console;
 use crate::flags::Arguments;
-use crate::render::{denoiser, logical_cores, program, say_saved};
+use crate::render::{denoiser, logical_cores, overwrites, program, say_saved};
 use crate::{BAD_INPUT, FAILED, RENDERED, json_report, paths, report, with_load_options};
 use indigo_film::FilmRecord;
 use indigo_render::output::{OutputPaths, SaveJob, write_film};
@@ -48,7 +48,7 @@ pub fn tone_map(arguments: &Arguments, console: &mut Console) -> u8 {
             return BAD_INPUT;
         }
     };
-    let loaded: LoadedDevelopment =
+    let (loaded, read): (LoadedDevelopment, _) =
         with_load_options(scene, arguments, |options| load_development(scene, options));
     if !arguments.json {
         report(scene, &loaded.sink, &loaded.sources, false, console);
@@ -92,16 +92,11 @@ pub fn tone_map(arguments: &Arguments, console: &mut Console) -> u8 {
         first_hits: None,
         denoiser,
     };
-    match job.save(&saved) {
-        Ok(files) => {
-            say_saved(&files, console);
-            RENDERED
-        }
-        Err(error) => {
-            console.say(&format!("error: {error}"));
-            FAILED
-        }
+    if let Some(error) = overwrites(job.files(), &read) {
+        console.say(&error);
+        return BAD_INPUT;
     }
+    if say_saved(&job.save(&saved), console) { RENDERED } else { FAILED }
 }
 
 /// Says what is wrong with a film; the exit status.

@@ -15,7 +15,7 @@ use indigo_render::disk::{DiskResolver, DiskTreeStore};
 use indigo_render::output::write_strategies;
 use indigo_render::pool::with_jobs;
 use indigo_scene::{LoadOptions, Loaded, Scene, load};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// Name and version, in the form that programs which call this one look for.
@@ -72,7 +72,7 @@ fn run(arguments: &Arguments, console: &mut Console) -> u8 {
             return BAD_INPUT;
         }
     };
-    let loaded = load_scene(scene, arguments);
+    let (loaded, read) = load_scene(scene, arguments);
     if let Some(settings) = &loaded.settings
         && settings.bool("logging")
         && renders
@@ -92,7 +92,7 @@ fn run(arguments: &Arguments, console: &mut Console) -> u8 {
     match loaded.scene {
         Some(scene) => match (arguments.strategies, named) {
             (Some(passes), Some(picture)) => show_strategies(&scene, arguments, passes, &picture, console),
-            (_, named) => render::render(scene, arguments, named, console),
+            (_, named) => render::render(scene, &read, arguments, named, console),
         },
         None if loaded.sink.has_errors() => BAD_INPUT,
         None => RENDERED,
@@ -125,23 +125,29 @@ fn answer(text: &str, console: &mut Console) -> u8 {
     if console.answer(text) { RENDERED } else { FAILED }
 }
 
-fn load_scene(path: &str, arguments: &Arguments) -> Loaded {
+/// A scene, and the files that it was read from.
+fn load_scene(path: &str, arguments: &Arguments) -> (Loaded, Vec<PathBuf>) {
     with_load_options(path, arguments, |options| with_jobs(render::logical_cores(), || load(path, options)))
 }
 
-/// Calls `load` with what the command line and this machine add to a scene.
-fn with_load_options<T>(scene: &str, arguments: &Arguments, load: impl FnOnce(&LoadOptions) -> T) -> T {
+/// Calls `load` with what the command line and this machine add to a scene; what it gives, and the files that it read.
+fn with_load_options<T>(
+    scene: &str,
+    arguments: &Arguments,
+    load: impl FnOnce(&LoadOptions) -> T,
+) -> (T, Vec<PathBuf>) {
     let resolver = DiskResolver::new(paths::resource_directories()).for_scene(scene);
     let trees = DiskTreeStore::new(paths::tree_cache());
     let inifile = paths::inifile();
-    load(&LoadOptions {
+    let loaded = load(&LoadOptions {
         resolver: &resolver,
         trees: &trees,
         inifile: inifile.as_deref(),
         overrides: &arguments.settings,
         limits: Limits::default(),
         check_only: arguments.check || arguments.print_settings,
-    })
+    });
+    (loaded, resolver.files())
 }
 
 /// Everything that was found in the scene, errors last so that they are seen.

@@ -6,7 +6,7 @@ use crate::{BAD_INPUT, FAILED, RENDERED, VERSION, count, films, paths};
 use indigo_film::SavedFilm;
 use indigo_render::denoise::Denoiser;
 use indigo_render::first_hits::SceneFirstHits;
-use indigo_render::output::{OutputPaths, SaveError, SaveJob, Saving};
+use indigo_render::output::{OutputPaths, SaveError, SaveJob, Saved, Saving};
 use indigo_render::saved::read_film;
 use indigo_render::{Event, Halt, HaltReason, Options, Progress, Session, SessionError, preview};
 use indigo_scene::schema::settings::MOST_THREADS;
@@ -33,8 +33,14 @@ pub fn logical_cores() -> usize {
 
 /// Renders a scene; the exit status.
 ///
-/// `named` is the picture's path, if the user has given one.
-pub fn render(scene: Scene, arguments: &Arguments, named: Option<PathBuf>, console: &mut Console) -> u8 {
+/// `named` is the picture's path, if the user has given one; `read` are the files that the scene was read from.
+pub fn render(
+    scene: Scene,
+    read: &[PathBuf],
+    arguments: &Arguments,
+    named: Option<PathBuf>,
+    console: &mut Console,
+) -> u8 {
     let scene = Arc::new(scene);
     describe(&scene, console);
     let saved = match arguments.resume.as_ref().map(|path| read_film(Path::new(path))).transpose() {
@@ -52,7 +58,6 @@ pub fn render(scene: Scene, arguments: &Arguments, named: Option<PathBuf>, conso
             return FAILED;
         }
     };
-    preview_aperture(&scene, picture.path(), console);
     let options = Options {
         threads: scene.output.threads.unwrap_or_else(logical_cores).min(MOST_THREADS),
         seed: arguments.seed.unwrap_or_else(|| seed_of(saved.as_ref())),
@@ -69,6 +74,15 @@ pub fn render(scene: Scene, arguments: &Arguments, named: Option<PathBuf>, conso
             .then(|| Arc::new(SceneFirstHits::of(Arc::clone(&scene)))),
         denoiser: denoiser(&scene.output, console),
     };
+    let preview =
+        scene.output.aperture_preview.then(|| picture.path().with_file_name(paths::APERTURE_PREVIEW));
+    if let Some(error) = overwrites(job.files().chain(preview.clone()), read) {
+        console.say(&error);
+        return BAD_INPUT;
+    }
+    if let Some(path) = preview {
+        preview_aperture(&scene, path, console);
+    }
     // Now rather than after hours of rendering.
     if let Err(error) = job.check_writable() {
         console.say(&format!("error: {error}"));
@@ -86,6 +100,20 @@ pub fn render(scene: Scene, arguments: &Arguments, named: Option<PathBuf>, conso
         }
         Err(error) => fail(&error, console),
     }
+}
+
+/// What to say where a file that is to be written is one of those that were read, by whatever name.
+pub fn overwrites(mut written: impl Iterator<Item = PathBuf>, read: &[PathBuf]) -> Option<String> {
+    let is_read = |path: &PathBuf| {
+        let Ok(path) = path.canonicalize() else { return false };
+        read.iter().any(|file| file.canonicalize().is_ok_and(|file| file == path))
+    };
+    written.find(is_read).map(|file| {
+        format!(
+            "error: the scene reads {}, which would be overwritten: give the picture another name, or that file",
+            file.display()
+        )
+    })
 }
 
 /// Says why there is no session; the exit status.
@@ -169,13 +197,9 @@ fn describe(scene: &Scene, console: &mut Console) {
 
 /// A scene with an aperture shape of its own gets a picture of it, beside that of the scene. It is for looking at: a
 /// failure costs a warning.
-fn preview_aperture(scene: &Scene, picture: &Path, console: &mut Console) {
-    let path = picture.with_file_name(paths::APERTURE_PREVIEW);
-    if !scene.output.aperture_preview {
-        return;
-    }
+fn preview_aperture(scene: &Scene, path: PathBuf, console: &mut Console) {
     match preview::save_aperture(scene.camera.aperture(), &path) {
-        Ok(()) => say_saved(&[path], console),
+        Ok(()) => console.say(&format!("Saved {}", path.display())),
         Err(error) => console.say(&format!("warning: {error}")),
     }
 }
@@ -271,23 +295,19 @@ fn finish(
             saved.film.refused
         ));
     }
-    match saver.job.save(&saved) {
-        Ok(files) => {
-            say_saved(&files, console);
-            if matches!(reason, HaltReason::Failed(_)) { FAILED } else { RENDERED }
-        }
-        Err(error) => {
-            console.say(&format!("error: {error}"));
-            FAILED
-        }
-    }
+    let is_saved = say_saved(&saver.job.save(&saved), console);
+    if is_saved && !matches!(reason, HaltReason::Failed(_)) { RENDERED } else { FAILED }
 }
 
-/// Names the files that were written.
-pub fn say_saved(files: &[PathBuf], console: &mut Console) {
-    for file in files {
+/// Names the files that were written and those that were not; whether all were.
+pub fn say_saved(saved: &Saved, console: &mut Console) -> bool {
+    for file in &saved.written {
         console.say(&format!("Saved {}", file.display()));
     }
+    for error in &saved.failures {
+        console.say(&format!("error: {error}"));
+    }
+    saved.failures.is_empty()
 }
 
 /// Saves the picture now and then, one save at a time.
@@ -322,13 +342,13 @@ impl Saver<'_> {
     }
 
     fn wait_for_last(&mut self, console: &mut Console) {
-        match self.saving.take().map(Saving::finish) {
-            Some(Ok(files)) if !self.announced => {
-                self.announced = true;
-                say_saved(&files, console);
-            }
-            Some(Err(error)) => self.complain(&error, console),
-            Some(Ok(_)) | None => {}
+        let Some(mut saved) = self.saving.take().map(Saving::finish) else { return };
+        let first_failure = (!saved.failures.is_empty()).then(|| saved.failures.swap_remove(0));
+        if let Some(error) = first_failure {
+            self.complain(&error, console);
+        } else if !self.announced {
+            self.announced = true;
+            say_saved(&saved, console);
         }
     }
 

@@ -285,11 +285,14 @@ impl Range {
     /// The largest number that the renderer can hold, since it computes in single precision.
     pub const LARGEST: f64 = f32::MAX as f64;
 
+    /// The smallest number above 0 that it can tell from 0.
+    pub const SMALLEST: f64 = f32::MIN_POSITIVE as f64;
+
     /// Whether a number is allowed.
     pub fn allows(self, v: f64) -> bool {
         match self {
             Self::Any => v.abs() <= Self::LARGEST,
-            Self::Above(lo) => v > lo && v <= Self::LARGEST,
+            Self::Above(lo) => v >= lo + Self::SMALLEST && v > lo && v <= Self::LARGEST,
             Self::AtLeast(lo) => v >= lo && v <= Self::LARGEST,
             Self::Within(lo, hi) => (lo..=hi).contains(&v),
         }
@@ -310,7 +313,7 @@ impl Range {
         let v = if v.abs() <= Self::LARGEST { v } else { 0.0 };
         match self {
             Self::Any => v,
-            Self::Above(lo) if v <= lo => lo + 1.0,
+            Self::Above(lo) if !self.allows(v) => lo + 1.0,
             Self::Above(_) => v,
             Self::AtLeast(lo) => v.max(lo),
             Self::Within(lo, hi) => v.clamp(lo, hi),

@@ -164,7 +164,7 @@ mod tests {
 
     #[test]
     fn a_bad_number_gets_a_stand_in_that_is_allowed() {
-        for text in ["-3", "nan", "inf", "", "1 2", "abc", "0"] {
+        for text in ["-3", "nan", "inf", "", "1 2", "abc", "0", "1e-46"] {
             let (value, error) = parse(&POSITIVE, text);
             assert!(error.is_some(), "{text}");
             assert!(matches!(value, Value::Real(v) if v > 0.0), "{text}");

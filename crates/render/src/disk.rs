@@ -7,6 +7,7 @@ use indigo_math::pages;
 use std::fs::File;
 use std::io::{Read, Write as _};
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Finds files beside the scene, then beside the file that names them (which the scene may include), then in resource
 /// directories.
@@ -19,6 +20,8 @@ pub struct DiskResolver {
     scene: Option<PathBuf>,
     resource_directories: Vec<PathBuf>,
     limit: u64,
+    /// What has been read; copies of a resolver share it.
+    files: Arc<Mutex<Vec<PathBuf>>>,
 }
 
 impl DiskResolver {
@@ -27,13 +30,18 @@ impl DiskResolver {
 
     /// A resolver that also looks into these directories.
     pub fn new(resource_directories: Vec<PathBuf>) -> Self {
-        Self { scene: None, resource_directories, limit: Self::DEFAULT_LIMIT }
+        Self { scene: None, resource_directories, limit: Self::DEFAULT_LIMIT, files: Arc::default() }
     }
 
     /// The same resolver for what is named anywhere in a scene and the files that it includes.
     #[must_use]
     pub fn for_scene(self, path: impl Into<PathBuf>) -> Self {
         Self { scene: Some(path.into()), ..self }
+    }
+
+    /// The files that have been read.
+    pub fn files(&self) -> Vec<PathBuf> {
+        self.files.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
     fn candidates(&self, path: &str, from: &str) -> Vec<PathBuf> {
@@ -69,6 +77,7 @@ impl DiskResolver {
         let mut bytes = Vec::with_capacity(meta.len() as usize);
         // A file that grows while it is read must not go beyond the limit either.
         file.take(self.limit).read_to_end(&mut bytes).map_err(|e| unreadable(e.to_string()))?;
+        self.files.lock().unwrap_or_else(PoisonError::into_inner).push(path.to_path_buf());
         Ok(Resolved { path: shown, bytes: bytes.into() })
     }
 }

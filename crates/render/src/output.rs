@@ -84,6 +84,30 @@ pub enum SaveError {
     Thread(String),
 }
 
+/// What became of the files of a picture.
+#[derive(Debug, Default)]
+pub struct Saved {
+    /// Those that are complete.
+    pub written: Vec<PathBuf>,
+    /// Why the others are not; what was there of them before still is.
+    pub failures: Vec<SaveError>,
+}
+
+impl Saved {
+    fn add(&mut self, result: Result<PathBuf, SaveError>) {
+        match result {
+            Ok(path) => self.written.push(path),
+            Err(error) => self.failures.push(error),
+        }
+    }
+}
+
+impl From<SaveError> for Saved {
+    fn from(error: SaveError) -> Self {
+        Self { written: vec![], failures: vec![error] }
+    }
+}
+
 /// What a picture is saved with besides the film.
 #[derive(Clone)]
 pub struct SaveJob {
@@ -102,42 +126,38 @@ pub struct SaveJob {
 }
 
 impl SaveJob {
-    /// Develops a film and writes all files that the scene asks for; returns their paths.
-    ///
-    /// # Errors
-    /// The first file that could not be written; the files before it are complete.
-    pub fn save(&self, saved: &SavedFilm) -> Result<Vec<PathBuf>, SaveError> {
+    /// Develops a film and writes all files that the scene asks for. What one of them costs the others do not pay: on a
+    /// disk that is nearly full a small picture is kept where the film has no room.
+    pub fn save(&self, saved: &SavedFilm) -> Saved {
         with_jobs(self.threads, || self.save_on_pool(saved))
     }
 
-    fn save_on_pool(&self, saved: &SavedFilm) -> Result<Vec<PathBuf>, SaveError> {
+    fn save_on_pool(&self, saved: &SavedFilm) -> Saved {
         let (settings, output) = (&self.development.picture, &self.development.output);
-        let mut written = vec![];
+        let mut all = Saved::default();
         // First what cannot be made again.
         if let (true, Some(record)) = (output.igi, &saved.record) {
-            written.push(write_film(&self.paths.igi(), &saved.film, record)?);
+            all.add(write_film(&self.paths.igi(), &saved.film, record));
         }
         let image = on_sensor(saved.film.develop(), settings);
         let metadata = self.metadata(saved);
         let picture = develop_image(&image, settings);
-        let png = png::encode(&picture, &metadata, output.png)?;
-        written.push(write(&self.paths.png, &png)?);
+        all.add(encoded(&self.paths.png, png::encode(&picture, &metadata, output.png)));
         let linear = || untonemapped(&image, settings.downsize, settings.region);
         if output.untonemapped_exr {
-            written.push(write(&self.paths.untonemapped_exr(), &exr::encode(&linear(), &metadata)?)?);
+            all.add(encoded(&self.paths.untonemapped_exr(), exr::encode(&linear(), &metadata)));
         }
         if output.tonemapped_exr {
-            let linear = as_linear(&picture);
-            written
-                .push(write(&self.paths.tonemapped_exr(), &exr::encode_display_linear(&linear, &metadata)?)?);
+            let bytes = exr::encode_display_linear(&as_linear(&picture), &metadata);
+            all.add(encoded(&self.paths.tonemapped_exr(), bytes));
         }
         if let (true, Some(hits)) = (output.layers_exr, &self.first_hits) {
-            written.push(self.write_layers(linear(), &saved.film, hits.get(), &metadata)?);
+            all.add(self.write_layers(linear(), &saved.film, hits.get(), &metadata));
         }
         if let (true, Some(denoiser)) = (output.denoised, &self.denoiser) {
-            written.push(self.write_denoised(&saved.film.develop(), denoiser, &metadata)?);
+            all.add(self.write_denoised(&saved.film.develop(), denoiser, &metadata));
         }
-        Ok(written)
+        all
     }
 
     fn write_layers(
@@ -183,11 +203,8 @@ impl SaveJob {
         write(&self.paths.denoised(), &png)
     }
 
-    /// Whether all files could be written.
-    ///
-    /// # Errors
-    /// The first file that could not.
-    pub fn check_writable(&self) -> Result<(), SaveError> {
+    /// The files that it writes.
+    pub fn files(&self) -> impl Iterator<Item = PathBuf> {
         let output = &self.development.output;
         let wanted = [
             (true, self.paths.png.clone()),
@@ -197,7 +214,15 @@ impl SaveJob {
             (output.layers_exr && self.first_hits.is_some(), self.paths.layers_exr()),
             (output.denoised && self.denoiser.is_some(), self.paths.denoised()),
         ];
-        for (_, path) in wanted.into_iter().filter(|(is_wanted, _)| *is_wanted) {
+        wanted.into_iter().filter(|(is_wanted, _)| *is_wanted).map(|(_, path)| path)
+    }
+
+    /// Whether all files could be written.
+    ///
+    /// # Errors
+    /// The first file that could not.
+    pub fn check_writable(&self) -> Result<(), SaveError> {
+        for path in self.files() {
             check_writable(&path).map_err(|source| SaveError::Write { path, source })?;
         }
         Ok(())
@@ -251,7 +276,7 @@ impl SaveJob {
 
 /// A picture being saved.
 pub struct Saving {
-    handle: JoinHandle<Result<Vec<PathBuf>, SaveError>>,
+    handle: JoinHandle<Saved>,
 }
 
 impl Saving {
@@ -261,14 +286,15 @@ impl Saving {
     }
 
     /// Waits for the end.
-    ///
-    /// # Errors
-    /// As [`SaveJob::save`].
-    pub fn finish(self) -> Result<Vec<PathBuf>, SaveError> {
-        self.handle
-            .join()
-            .unwrap_or_else(|_| Err(SaveError::Thread("the thread that saves failed".to_owned())))
+    pub fn finish(self) -> Saved {
+        let failed = || SaveError::Thread("the thread that saves failed".to_owned());
+        self.handle.join().unwrap_or_else(|_| failed().into())
     }
+}
+
+/// Writes a picture if it could be encoded.
+fn encoded(path: &Path, bytes: Result<Vec<u8>, ImagingError>) -> Result<PathBuf, SaveError> {
+    write(path, &bytes?)
 }
 
 fn write(path: &Path, bytes: &[u8]) -> Result<PathBuf, SaveError> {

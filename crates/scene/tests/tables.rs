@@ -189,7 +189,7 @@ spherical: width >0, gain >0
 linear: scale >=0
 reinhard: pre_scale >=0, post_scale >=0, burn >1
 camera in tonemapping: film_iso >0
-camera: aperture_radius >0, focus_distance >0, aspect_ratio >0, sensor_width >0, lens_sensor_dist >0,
+camera: aperture_radius >0, focus_distance >0, aspect_ratio 0.001..1000, sensor_width >0, lens_sensor_dist >0,
     exposure_duration >0
 bloom: weight >=0, radius >=0
 generated: num_blades >=3, blade_offset >0, blade_curvature_radius >0

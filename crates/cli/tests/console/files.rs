@@ -183,6 +183,29 @@ fn a_picture_that_cannot_be_written_is_told_before_rendering() {
     assert!(ran.stderr.contains("error: cannot write wall/a.png"), "{}", ran.stderr);
 }
 
+/// A picture has the name of an image map of its scene, by whatever way it is written.
+#[test]
+fn what_the_scene_reads_is_not_overwritten() {
+    let bench = Workbench::new(QUIET);
+    assert_eq!(bench.run(&["scene.igs", "-haltspp", "1", "-o", "wood.png"]).status, Some(0));
+    let wood = std::fs::read(bench.path("wood.png")).expect("saved");
+    let albedo = "<albedo_spectrum><uniform><value>0.5</value></uniform></albedo_spectrum>";
+    let map = "<albedo_texture><path>wood.png</path><exponent>2.2</exponent></albedo_texture>";
+    let text = std::fs::read_to_string(bench.path("scene.igs")).expect("the scene").replace(albedo, map);
+    bench.write("wooden.igs", &text);
+    for arguments in [
+        &["wooden.igs", "-haltspp", "1", "-o", "wood.png"][..],
+        &["wooden.igs", "-haltspp", "1", "-o", "./sub/../wood.png"],
+    ] {
+        std::fs::create_dir_all(bench.path("sub")).expect("the test's own directory");
+        let ran = bench.run(arguments);
+        assert_eq!(ran.status, Some(2), "{ran:?}");
+        assert!(ran.stderr.contains("wood.png, which would be overwritten"), "{}", ran.stderr);
+        assert_eq!(std::fs::read(bench.path("wood.png")).expect("still there"), wood);
+    }
+    assert_eq!(bench.run(&["wooden.igs", "-haltspp", "1", "-o", "other.png"]).status, Some(0));
+}
+
 /// The directory turns into a file while the program renders.
 #[test]
 fn a_save_that_fails_is_tried_again_and_is_a_failure_in_the_end() {

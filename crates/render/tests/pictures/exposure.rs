@@ -47,8 +47,8 @@ fn saved_exr(scene: &Scene, passes: u64, name: &str) -> Image {
         first_hits: None,
         denoiser: None,
     };
-    let written = job.save(&SavedFilm { film, record: None }).expect("saving works");
-    assert!(written.contains(&exr), "{written:?}");
+    let saved = job.save(&SavedFilm { film, record: None });
+    assert!(saved.written.contains(&exr) && saved.failures.is_empty(), "{saved:?}");
     let image = decode("x.exr", &std::fs::read(&exr).expect("the file is there")).expect("it is an EXR");
     std::fs::remove_dir_all(directory).expect("the test's own files");
     image
