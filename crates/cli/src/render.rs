@@ -81,7 +81,7 @@ pub fn render(
         return BAD_INPUT;
     }
     if let Some(path) = preview {
-        preview_aperture(&scene, path, console);
+        preview_aperture(&scene, &path, console);
     }
     // Now rather than after hours of rendering.
     if let Err(error) = job.check_writable() {
@@ -197,8 +197,8 @@ fn describe(scene: &Scene, console: &mut Console) {
 
 /// A scene with an aperture shape of its own gets a picture of it, beside that of the scene. It is for looking at: a
 /// failure costs a warning.
-fn preview_aperture(scene: &Scene, path: PathBuf, console: &mut Console) {
-    match preview::save_aperture(scene.camera.aperture(), &path) {
+fn preview_aperture(scene: &Scene, path: &Path, console: &mut Console) {
+    match preview::save_aperture(scene.camera.aperture(), path) {
         Ok(()) => console.say(&format!("Saved {}", path.display())),
         Err(error) => console.say(&format!("warning: {error}")),
     }
