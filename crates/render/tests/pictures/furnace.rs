@@ -42,7 +42,7 @@ fn a_grey_ball_of_albedo_four_fifths_is_five_times_as_bright() {
 fn a_highly_reflective_room_is_a_hundred_times_as_bright_in_every_mode() {
     let mut scene = room(&Mesh::cube(1.0), 0.99, "<max_depth>10000</max_depth>");
     for mode in MODES {
-        let measured = luminance_in_mode(&mut scene, mode, 6, 16);
+        let measured = luminance_in_mode(&mut scene, mode, 6, 24);
         assert_is(&mode.to_string(), &measured, EMITTED * NITS_PER_UNIFORM * 100.0, 3e-2);
     }
 }
@@ -54,13 +54,13 @@ fn max_depth_cuts_the_series_after_that_many_scattering_events() {
     for depth in 0..4 {
         scene.transport.max_depth = depth;
         expected += 0.5f64.powi(depth as i32);
-        assert_luminance(&format!("depth {depth}"), &measure(&scene, 16, 112), expected);
+        assert_luminance(&format!("depth {depth}"), &measure(&scene, 16, 160), expected);
     }
 }
 
 #[test]
 fn max_depth_is_read_from_the_settings() {
-    let measured = measure(&room(&Mesh::cube(1.0), 0.5, "<max_depth>2</max_depth>"), 16, 112);
+    let measured = measure(&room(&Mesh::cube(1.0), 0.5, "<max_depth>2</max_depth>"), 16, 160);
     assert_luminance("max_depth 2", &measured, 1.0 + 0.5 + 0.25);
 }
 
@@ -84,7 +84,7 @@ fn a_convex_object_in_uniform_light_shows_its_albedo() {
             object,
             background(&uniform(EMITTED)),
         ]));
-        let measured = measure(&scene, 16, 112);
+        let measured = measure(&scene, 16, 160);
         assert_luminance(name, &measured, 0.35);
         assert_is("alpha", &measured.xyza[3], 1.0, 1e-6);
     }
