@@ -34,16 +34,17 @@ pub struct WavelengthSampler {
 }
 
 /// By the observer alone.
-static VISIBLE: WavelengthSampler = WavelengthSampler {
-    knots: knots(&{
-        let mut cells = [0.0; COUNT - 1];
-        let mut i = 0;
-        while i < COUNT - 1 {
-            cells[i] = importance(i);
-            i += 1;
-        }
-        cells
-    }),
+static VISIBLE: WavelengthSampler = WavelengthSampler { knots: knots(&IMPORTANCE) };
+
+/// What [`importance`] says of each nanometre.
+static IMPORTANCE: [f64; COUNT - 1] = {
+    let mut cells = [0.0; COUNT - 1];
+    let mut i = 0;
+    while i < COUNT - 1 {
+        cells[i] = importance(i);
+        i += 1;
+    }
+    cells
 };
 
 /// The density before it is cut into segments, up to a factor, between grid points `i` and `i + 1`:
@@ -226,7 +227,7 @@ impl LightSpectrum {
             let lambda = std::array::from_fn(|lane| middle(lane) as Real);
             let values = radiance(&SampledWavelengths { lambda, pdf: [1.0; LANES] });
             for (lane, k) in (first..self.cells.len()).enumerate().take(LANES) {
-                seen.push(f64::from(values[lane] as f32).max(0.0) * importance(k / FINE));
+                seen.push(f64::from(values[lane] as f32).max(0.0) * IMPORTANCE[k / FINE]);
             }
         }
         let sum: f64 = seen.iter().sum();
