@@ -5,8 +5,6 @@ use indigo_film::{FilmRecord, FilmSize, FilmState, LayerKind, Run, igi};
 use indigo_formats::image::Pixels;
 use indigo_formats::{MeshData, MeshFormat, float_map, ies, image, nk};
 use indigo_fuzz::fuzz;
-use indigo_geom::NoStore;
-use indigo_igs::Limits;
 use indigo_light::Profile;
 use indigo_scene::{LoadOptions, Loaded, load};
 
@@ -139,15 +137,9 @@ impl Resolver for Memory<'_> {
 #[test]
 fn scene() {
     fuzz(&seeds("scene"), |bytes| {
-        let options = LoadOptions {
-            resolver: &Memory(bytes),
-            trees: &NoStore,
-            inifile: None,
-            overrides: &[],
-            limits: Limits::default(),
-            // Trees are left out: a number in a damaged file may ask for a large picture, and they take time.
-            check_only: true,
-        };
+        let memory = Memory(bytes);
+        // Trees are left out: a number in a damaged file may ask for a large picture, and they take time.
+        let options = LoadOptions { check_only: true, ..LoadOptions::new(&memory) };
         let Loaded { sources, sink, settings, .. } = load("scene.igs", &options);
         assert!(settings.is_some() || sink.has_errors(), "nothing was read, and nothing was said of it");
         for diagnostic in sink.diagnostics() {

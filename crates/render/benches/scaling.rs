@@ -5,8 +5,6 @@
 #[path = "transport/modes.rs"]
 mod modes;
 
-use indigo_geom::NoStore;
-use indigo_igs::Limits;
 use indigo_render::disk::DiskResolver;
 use indigo_render::{Options, Session};
 use indigo_scene::{LoadOptions, Scene, load};
@@ -22,14 +20,8 @@ const TURN: Duration = Duration::from_millis(700);
 const START: Duration = Duration::from_secs(3);
 
 fn cornell_box() -> Scene {
-    let options = LoadOptions {
-        resolver: &DiskResolver::new(vec![]),
-        trees: &NoStore,
-        inifile: None,
-        overrides: &[],
-        limits: Limits::default(),
-        check_only: false,
-    };
+    let resolver = DiskResolver::new(vec![]);
+    let options = LoadOptions::new(&resolver);
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../testscenes/cornell_box.igs");
     load(path, &options).scene.expect("a scene of ours without errors")
 }

@@ -1,8 +1,6 @@
 //! Every scene that the repository ships is one to learn from: it loads without an error or a warning.
 
 use indigo_diag::{Style, to_text};
-use indigo_geom::NoStore;
-use indigo_igs::Limits;
 use indigo_render::disk::DiskResolver;
 use indigo_scene::{LoadOptions, load};
 use std::path::{Path, PathBuf};
@@ -20,14 +18,8 @@ fn shipped_scenes() -> Vec<PathBuf> {
 
 /// What loading a scene has to say about it.
 fn complaints(path: &Path) -> Vec<String> {
-    let options = LoadOptions {
-        resolver: &DiskResolver::new(vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")]),
-        trees: &NoStore,
-        inifile: None,
-        overrides: &[],
-        limits: Limits::default(),
-        check_only: false,
-    };
+    let resolver = DiskResolver::new(vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")]);
+    let options = LoadOptions::new(&resolver);
     let loaded = load(&path.to_string_lossy(), &options);
     assert!(loaded.scene.is_some() || loaded.sink.has_errors(), "no scene, and nothing said why");
     loaded.sink.diagnostics().iter().map(|d| to_text(d, &loaded.sources, Style::Plain)).collect()

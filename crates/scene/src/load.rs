@@ -8,7 +8,7 @@ use crate::schema::settings::RENDERER_SETTINGS;
 use crate::settings::{Origin, Settings};
 use indigo_decl::{Element, Node, Resolver, bind};
 use indigo_diag::{Sink, SourceMap, Span, Spanned};
-use indigo_geom::TreeStore;
+use indigo_geom::{NoStore, TreeStore};
 use indigo_igs::{Limits, read_document, read_scene};
 
 /// A setting given on the command line.
@@ -37,6 +37,20 @@ pub struct LoadOptions<'a> {
     pub limits: Limits,
     /// Whether to check only: no trees are built and no scene comes out.
     pub check_only: bool,
+}
+
+impl<'a> LoadOptions<'a> {
+    /// To load a scene whose bytes come from a resolver: no trees are kept, nothing is added, and limits are the usual.
+    pub fn new(resolver: &'a dyn Resolver) -> Self {
+        Self {
+            resolver,
+            trees: &NoStore,
+            inifile: None,
+            overrides: &[],
+            limits: Limits::default(),
+            check_only: false,
+        }
+    }
 }
 
 /// A scene as far as it could be loaded.

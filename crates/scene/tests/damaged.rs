@@ -3,8 +3,6 @@
 use indigo_camera::declare::CAMERA;
 use indigo_decl::{Block, ResolveError, Resolved, Resolver, reference};
 use indigo_diag::{Severity, Sink, Style, to_text};
-use indigo_geom::NoStore;
-use indigo_igs::Limits;
 use indigo_light::kinds::mesh;
 use indigo_math::rng::{Rng, key};
 use indigo_scene::schema::settings::RENDERER_SETTINGS;
@@ -28,14 +26,8 @@ impl Resolver for One {
 
 /// Loads, but builds no trees; returns what was found, rendered, and the number of errors.
 fn check(bytes: Vec<u8>) -> (Vec<String>, usize) {
-    let options = LoadOptions {
-        resolver: &One(bytes),
-        trees: &NoStore,
-        inifile: None,
-        overrides: &[],
-        limits: Limits::default(),
-        check_only: true,
-    };
+    let one = One(bytes);
+    let options = LoadOptions { check_only: true, ..LoadOptions::new(&one) };
     let started = Instant::now();
     let Loaded { sources, sink, .. } = load("scene.igs", &options);
     // Milliseconds where nothing else runs.

@@ -2,8 +2,6 @@
 
 use indigo_decl::{ResolveError, Resolved, Resolver};
 use indigo_diag::Severity;
-use indigo_geom::NoStore;
-use indigo_igs::Limits;
 use indigo_math::{Real, Vec3};
 use indigo_scene::{LoadOptions, Loaded, load};
 use indigo_spectrum::SampledWavelengths;
@@ -84,15 +82,7 @@ const HEAD: &str = "<scene><renderer_settings><aperture_diffraction>false</apert
 
 fn loaded(light: &str) -> Loaded {
     let resolver = Memory(format!("{HEAD}{light}</scene>"));
-    let options = LoadOptions {
-        resolver: &resolver,
-        trees: &NoStore,
-        inifile: None,
-        overrides: &[],
-        limits: Limits::default(),
-        check_only: false,
-    };
-    load("scene.igs", &options)
+    load("scene.igs", &LoadOptions::new(&resolver))
 }
 
 /// Codes of everything found.

@@ -2,8 +2,6 @@
 
 use indigo_decl::{ResolveError, Resolved, Resolver};
 use indigo_diag::Severity;
-use indigo_geom::NoStore;
-use indigo_igs::Limits;
 use indigo_math::Vec3;
 use indigo_scatter::phase::PhaseFunction;
 use indigo_scene::{LoadOptions, Loaded, Scene, load};
@@ -29,15 +27,7 @@ fn camera(pos: &str) -> String {
 
 fn loaded(rest: &str) -> Loaded {
     let memory = Memory(format!("{HEAD}{rest}</scene>"));
-    let options = LoadOptions {
-        resolver: &memory,
-        trees: &NoStore,
-        inifile: None,
-        overrides: &[],
-        limits: Limits::default(),
-        check_only: false,
-    };
-    load("scene.igs", &options)
+    load("scene.igs", &LoadOptions::new(&memory))
 }
 
 fn scene(rest: &str) -> Scene {

@@ -1,8 +1,6 @@
 //! Every file of `media/` can be included, and its medium used, without a complaint.
 
 use indigo_decl::{ResolveError, Resolved, Resolver};
-use indigo_geom::NoStore;
-use indigo_igs::Limits;
 use indigo_scene::{LoadOptions, load};
 use std::path::Path;
 
@@ -40,14 +38,7 @@ fn every_medium_of_the_library_loads() {
             "<scene>{HEAD}<include><pathname>media/{name}.igs</pathname></include><material><name>surface</name><specular><internal_medium_name>{name}</internal_medium_name></specular></material></scene>"
         );
         let repository = Repository(scene);
-        let options = LoadOptions {
-            resolver: &repository,
-            trees: &NoStore,
-            inifile: None,
-            overrides: &[],
-            limits: Limits::default(),
-            check_only: false,
-        };
+        let options = LoadOptions::new(&repository);
         let loaded = load("scene.igs", &options);
         assert!(loaded.sink.diagnostics().is_empty(), "{name}: {:?}", loaded.sink.diagnostics());
         let scene = loaded.scene.expect("a scene");

@@ -1,8 +1,6 @@
 //! Exit portals: openings that none covers are found, and portals that can have no effect are named.
 
 use indigo_decl::{ResolveError, Resolved, Resolver};
-use indigo_geom::NoStore;
-use indigo_igs::Limits;
 use indigo_scene::{LoadOptions, load};
 
 struct Memory(String);
@@ -43,15 +41,7 @@ fn codes(more: &str, light: &str) -> Vec<(&'static str, String)> {
     let models: String = ["low", "high", "left", "right"].map(|name| placed("model", name)).concat();
     let text = format!("{head}{light}{}{models}{more}</scene>", walls.concat());
     let resolver = Memory(text);
-    let options = LoadOptions {
-        resolver: &resolver,
-        trees: &NoStore,
-        inifile: None,
-        overrides: &[],
-        limits: Limits::default(),
-        check_only: false,
-    };
-    let loaded = load("scene.igs", &options);
+    let loaded = load("scene.igs", &LoadOptions::new(&resolver));
     loaded.sink.diagnostics().iter().map(|d| (d.code, format!("{} {:?}", d.message, d.notes))).collect()
 }
 

@@ -7,8 +7,6 @@ use super::common::shapes::{Mesh, mesh_light, model};
 use super::common::text::{
     background, basic, diffuse, flat_camera, grey, medium, scene_file, settings, specular, sphere, uniform,
 };
-use indigo_geom::NoStore;
-use indigo_igs::Limits;
 use indigo_render::disk::DiskResolver;
 use indigo_scene::{LoadOptions, Scene, load};
 use std::fs;
@@ -30,14 +28,8 @@ impl BenchScene {
 
     pub fn load(&self) -> Scene {
         let Some(file) = &self.file else { return scene(&self.text) };
-        let options = LoadOptions {
-            resolver: &DiskResolver::new(vec![]).for_scene(file),
-            trees: &NoStore,
-            inifile: None,
-            overrides: &[],
-            limits: Limits::default(),
-            check_only: false,
-        };
+        let resolver = DiskResolver::new(vec![]).for_scene(file);
+        let options = LoadOptions::new(&resolver);
         load(file, &options).scene.unwrap_or_else(|| panic!("{file} has errors: see --check"))
     }
 }

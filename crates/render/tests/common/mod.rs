@@ -12,8 +12,6 @@ pub mod window;
 use indigo_decl::{ResolveError, Resolved, Resolver};
 use indigo_diag::{Style, to_text};
 use indigo_film::FilmState;
-use indigo_geom::NoStore;
-use indigo_igs::Limits;
 use indigo_scene::{LoadOptions, MetropolisSettings, Scene, load};
 use indigo_testkit::stats::Moments;
 use indigo_transport::driver::Driver;
@@ -42,15 +40,8 @@ pub fn scene(text: &str) -> Scene {
 pub fn scene_with<const N: usize>(text: &str, files: [(&str, Vec<u8>); N]) -> Scene {
     let mut files: HashMap<String, Vec<u8>> = files.into_iter().map(|(n, b)| (n.to_owned(), b)).collect();
     files.insert("test.igs".to_owned(), text.as_bytes().to_vec());
-    let options = LoadOptions {
-        resolver: &Files(files),
-        trees: &NoStore,
-        inifile: None,
-        overrides: &[],
-        limits: Limits::default(),
-        check_only: false,
-    };
-    let loaded = load("test.igs", &options);
+    let files = Files(files);
+    let loaded = load("test.igs", &LoadOptions::new(&files));
     let complaints = || loaded.sink.diagnostics().iter().map(|d| to_text(d, &loaded.sources, Style::Plain));
     loaded.scene.unwrap_or_else(|| panic!("the scene has errors:\n{}", complaints().collect::<String>()))
 }

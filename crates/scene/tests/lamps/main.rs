@@ -3,8 +3,6 @@
 mod faults;
 
 use indigo_decl::{ResolveError, Resolved, Resolver};
-use indigo_geom::NoStore;
-use indigo_igs::Limits;
 use indigo_light::{LightTable, Receiver};
 use indigo_math::{Real, Vec3, Vec3d};
 use indigo_scene::{LoadOptions, Loaded, load};
@@ -96,15 +94,7 @@ fn rectangle(width: f64, height: f64, more: &str) -> String {
 
 fn loaded(text: &str) -> Loaded {
     let resolver = Memory(text.to_owned());
-    let options = LoadOptions {
-        resolver: &resolver,
-        trees: &NoStore,
-        inifile: None,
-        overrides: &[],
-        limits: Limits::default(),
-        check_only: false,
-    };
-    load("scene.igs", &options)
+    load("scene.igs", &LoadOptions::new(&resolver))
 }
 
 #[track_caller]

@@ -1,8 +1,6 @@
 //! Scenes in memory, and what lowering says about them.
 
 use indigo_decl::{ResolveError, Resolved, Resolver};
-use indigo_geom::NoStore;
-use indigo_igs::Limits;
 use indigo_imaging::png::Depth;
 use indigo_scene::{LoadOptions, Loaded, load};
 
@@ -50,14 +48,7 @@ pub const MESH: &str = "<mesh><name>tri</name><embedded><vertex pos=\"0 0 0\"/><
 pub const LINE: usize = 6;
 
 pub fn options(resolver: &Memory) -> LoadOptions<'_> {
-    LoadOptions {
-        resolver,
-        trees: &NoStore,
-        inifile: None,
-        overrides: &[],
-        limits: Limits::default(),
-        check_only: false,
-    }
+    LoadOptions::new(resolver)
 }
 
 pub fn loaded(text: &str) -> Loaded {

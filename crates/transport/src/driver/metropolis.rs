@@ -175,10 +175,6 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
-    fn mutation(&self) -> Mutation {
-        Mutation { max_change: self.driver.settings.max_change, key: self.key }
-    }
-
     /// The layers, each once.
     fn each_layer(&mut self, act: impl Fn(&mut FilmDelta, usize)) {
         let [direct, indirect] = self.driver.layers;
@@ -200,9 +196,11 @@ impl Run<'_> {
         self.each_layer(|delta, layer| delta.add_brightness(layer, sum, count));
     }
 
-    /// Traces a proposal, and says how many contributions were refused since they are no colours.
-    fn trace(&mut self, chain: &mut Chain, step: u64, is_large: bool) -> u64 {
-        let mut numbers = chain.sample.propose(self.mutation(), step, is_large);
+    /// Traces a proposal with the randomness that a key and a step name, and says how many contributions were refused
+    /// since they are no colours.
+    fn trace(&mut self, chain: &mut Chain, [key, step]: [u64; 2], is_large: bool) -> u64 {
+        let mutation = Mutation { max_change: self.driver.settings.max_change, key };
+        let mut numbers = chain.sample.propose(mutation, step, is_large);
         let [u0, u1, ..] = numbers.block(Block::FILM);
         let region = &self.driver.region;
         let position = region.position([u0, u1]);
@@ -230,19 +228,16 @@ impl Run<'_> {
     /// Traces the seeds that are missing, beside all other threads.
     fn find_seeds(&mut self) -> bool {
         let driver = self.driver;
-        let own_key = self.key;
         let mut scratch = Chain::default();
-        let is_complete = driver.seeds.complete(|number| {
-            self.key = driver.key(number as u64);
+        driver.seeds.complete(|number| {
+            let key = driver.key(number as u64);
             let mut block = seeds::Block { targets: vec![], refused: 0 };
             for step in 0..driver.seeds.per_block {
-                block.refused += self.trace(&mut scratch, step, true);
+                block.refused += self.trace(&mut scratch, [key, step], true);
                 block.targets.push(scratch.proposal.target);
             }
             block
-        });
-        self.key = own_key;
-        is_complete
+        })
     }
 
     /// Draws the chain's start among the seeds of its pool.
@@ -260,9 +255,7 @@ impl Run<'_> {
         let shift = rng::Rng::new(rng::key(&[driver.seed, driver.first, pool as u64, 1])).next_f64();
         let place = radical_inverse_2(number as u32 / pools as u32);
         if let Some((block, step)) = driver.seeds.draw(pool, (shift + place).fract()) {
-            let own_key = std::mem::replace(&mut self.key, driver.key(block as u64));
-            self.trace(chain, step, true);
-            self.key = own_key;
+            self.trace(chain, [driver.key(block as u64), step], true);
             chain.accept();
             chain.is_started = true;
         }
@@ -272,7 +265,7 @@ impl Run<'_> {
         let settings = &self.driver.settings;
         let mut rng = rng::Rng::new(rng::key(&[self.key, step, 2]));
         let is_large = !chain.is_started || rng.next_f64() < settings.large_mutation_prob;
-        let refused = self.trace(chain, step, is_large);
+        let refused = self.trace(chain, [self.key, step], is_large);
         self.delta.refuse(refused);
         let (proposed, current) = (chain.proposal.target, chain.current.target);
         if is_large {
