@@ -226,12 +226,26 @@ def skies():
     scene("sky_space.igs", what, include("sky.igs") + outside, 1.6, 8)
 
 
+def garden():
+    """Shrubs on both sides, as high as the windows show: they turn their shaded sides to the room."""
+    text = ""
+    for i in range(150):
+        along, up, out = (i * 0.618034) % 1, (i % 5) / 5, (i * 0.754878) % 1
+        place = (-6.6 - 0.9 * out, -3 + 15 * along) if i % 3 else (-5 + 10 * along, 11 + out)
+        radius = 0.55 + 0.3 * ((i * 0.569840) % 1)
+        centre = f"{place[0]:.2f} {place[1]:.2f} {-0.2 + 3.2 * up:.2f}"
+        text += sphere("young leaves" if i % 7 < 3 else "leaves", centre, round(radius, 2))
+    return text
+
+
 def portal_room():
     """A room of 4 by 6 by 2.6 m; a large window on the left and a small one in the back wall."""
     body = matt("plaster", "0.90 0.88 0.84") + matt("wood", "0.60 0.42 0.27") + matt("cloth", "0.28 0.42 0.55")
-    body += matt("lawn", "0.38 0.50 0.24") + matt("cushion", "0.86 0.55 0.20") + glazed("vase", "0.75 0.22 0.16", 800)
+    body += matt("lawn", "0.26 0.36 0.14") + matt("cushion", "0.86 0.55 0.20") + glazed("vase", "0.75 0.22 0.16", 800)
+    body += matt("leaves", "0.24 0.36 0.15") + matt("young leaves", "0.34 0.46 0.17")
     # Outside, below the floor.
     body += "    <plane><normal>0 0 1</normal><dist>-0.6</dist><material_name>lawn</material_name></plane>\n"
+    body += garden()
     boards = [[(-2 + 0.2 * i, 0, 0), (-1.806 + 0.2 * i, 0, 0), (-1.806 + 0.2 * i, 6, 0), (-2 + 0.2 * i, 6, 0)] for i in range(20)]
     body += mesh("floor", "wood", boards + box((-2.2, -0.2, -0.2), (2.2, 6.2, -0.004))) + placed("model", "floor")
     shell = [((-2.2, -0.2, 2.6), (2.2, 6.2, 2.8)), ((2, 0, -0.2), (2.2, 6, 2.6)), ((-2.2, -0.2, -0.2), (2.2, 0, 2.6))]
