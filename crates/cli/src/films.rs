@@ -4,11 +4,10 @@ use crate::console::Console;
 use crate::flags::Arguments;
 use crate::render::{denoiser, logical_cores, overwrites, program, say_saved};
 use crate::{BAD_INPUT, FAILED, RENDERED, json_report, paths, report, with_load_options};
-use indigo_film::FilmRecord;
 use indigo_render::output::{OutputPaths, SaveJob, write_film};
 use indigo_render::pool::with_jobs;
 use indigo_render::saved::{FilmFileError, merge_films, read_film};
-use indigo_scene::{DIFFRACTION_OF_RAYS, LoadedDevelopment, load_development};
+use indigo_scene::{DIFFRACTION_OF_RAYS, FOREGROUND_ALPHA, LoadedDevelopment, load_development};
 use std::path::{Path, PathBuf};
 
 /// Adds films; the exit status.
@@ -66,10 +65,19 @@ pub fn tone_map(arguments: &Arguments, console: &mut Console) -> u8 {
             saved.film.size, development.size
         ));
     }
-    let is_deflected = |record: &FilmRecord| {
-        record.settings.iter().any(|(name, value)| name == DIFFRACTION_OF_RAYS && value == "true")
-    };
-    if development.picture.diffraction.is_some() && saved.record.as_ref().is_some_and(is_deflected) {
+    let is_true =
+        |setting| saved.record.as_ref().is_some_and(|record| record.setting(setting) == Some("true"));
+    let is_mask = is_true(FOREGROUND_ALPHA);
+    if is_mask != development.picture.foreground_alpha {
+        let (holds, asked) =
+            if is_mask { ("what hides the background, and no light", "false") } else { ("light", "true") };
+        console.say(&format!(
+            "error: the film {film} holds {holds}, but in the scene {FOREGROUND_ALPHA} is {asked}: a film is developed \
+             with this setting as it was rendered"
+        ));
+        return BAD_INPUT;
+    }
+    if development.picture.diffraction.is_some() && is_true(DIFFRACTION_OF_RAYS) {
         console.say(
             "warning: light is diffracted twice: when the film was rendered, by its rays, and now by the filter; set \
              post_process_diffraction to false, as it was then",
@@ -83,7 +91,7 @@ pub fn tone_map(arguments: &Arguments, console: &mut Console) -> u8 {
             "note: the layers are made while a scene is rendered, not of a film: no EXR with layers is saved",
         );
     }
-    let denoiser = denoiser(&development.output, console);
+    let denoiser = denoiser(&development, console);
     let job = SaveJob {
         development,
         paths,

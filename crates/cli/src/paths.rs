@@ -1,8 +1,9 @@
 //! Where things are on this machine.
 
+use indigo_render::calendar::Moment;
 use indigo_render::output::OutputPaths;
 use std::path::{Path, PathBuf};
-use std::time::{SystemTime, UNIX_EPOCH};
+use std::time::SystemTime;
 
 /// Where the shape of the aperture is shown, in the folder of the picture.
 pub const APERTURE_PREVIEW: &str = "aperture_preview.png";
@@ -108,14 +109,7 @@ pub fn reserve_picture(scene: &str, now: SystemTime) -> std::io::Result<Reserved
         let path = picture_of(scene, now, number);
         number += 1;
         let paths = OutputPaths::new(path.clone());
-        let siblings = [
-            paths.untonemapped_exr(),
-            paths.tonemapped_exr(),
-            paths.layers_exr(),
-            paths.denoised(),
-            paths.igi(),
-        ];
-        if siblings.iter().any(|p| p.exists()) {
+        if paths.siblings().iter().any(|p| p.exists()) {
             continue;
         }
         if let Some(directory) = path.parent() {
@@ -137,28 +131,14 @@ fn picture_of(scene: &str, now: SystemTime, number: u32) -> PathBuf {
 
 /// A moment as 20080325T142301Z.
 fn utc(now: SystemTime) -> String {
-    let s = now.duration_since(UNIX_EPOCH).map_or(0, |d| d.as_secs());
-    let (year, month, day) = civil_from_days(s / 86_400);
-    format!("{year:04}{month:02}{day:02}T{:02}{:02}{:02}Z", s / 3600 % 24, s / 60 % 60, s % 60)
-}
-
-/// Gregorian date of a day counted from 1970-01-01. Eras of 400 years begin on 1 March of year 0, so
-/// that the leap day is the last of its year.
-fn civil_from_days(days: u64) -> (u64, u64, u64) {
-    let shifted = days + 719_468;
-    let (era, day) = (shifted / 146_097, shifted % 146_097);
-    let year = (day - day / 1460 + day / 36_524 - day / 146_096) / 365;
-    let day_of_year = day - (365 * year + year / 4 - year / 100);
-    let month = (5 * day_of_year + 2) / 153;
-    let day_of_month = day_of_year - (153 * month + 2) / 5 + 1;
-    let month = if month < 10 { month + 3 } else { month - 9 };
-    (era * 400 + year + u64::from(month <= 2), month, day_of_month)
+    let Moment { date: [year, month, day], time: [hour, minute, second] } = Moment::of(now);
+    format!("{year:04}{month:02}{day:02}T{hour:02}{minute:02}{second:02}Z")
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::time::Duration;
+    use std::time::{Duration, UNIX_EPOCH};
 
     #[test]
     fn pictures_are_named_by_time_and_scene() {

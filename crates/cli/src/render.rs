@@ -10,7 +10,7 @@ use indigo_render::output::{OutputPaths, SaveError, SaveJob, Saved, Saving};
 use indigo_render::saved::read_film;
 use indigo_render::{Event, Halt, HaltReason, Options, Progress, Session, SessionError, preview};
 use indigo_scene::schema::settings::MOST_THREADS;
-use indigo_scene::{OutputSettings, Scene};
+use indigo_scene::{Development, OutputSettings, Scene};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -65,14 +65,15 @@ pub fn render(
         epoch: epoch(&scene.output),
         ..Options::default()
     };
+    let development = scene.development();
     let job = SaveJob {
-        development: scene.development(),
+        denoiser: denoiser(&development, console),
+        development,
         paths: OutputPaths::new(picture.path()),
         version: program(),
         threads: options.threads,
         first_hits: (scene.output.layers_exr || scene.output.denoised)
             .then(|| Arc::new(SceneFirstHits::of(Arc::clone(&scene)))),
-        denoiser: denoiser(&scene.output, console),
     };
     let preview =
         scene.output.aperture_preview.then(|| picture.path().with_file_name(paths::APERTURE_PREVIEW));
@@ -205,8 +206,12 @@ fn preview_aperture(scene: &Scene, path: &Path, console: &mut Console) {
 }
 
 /// What denoises, if that is asked for and there is such a thing: a picture is rendered either way.
-pub fn denoiser(output: &OutputSettings, console: &mut Console) -> Option<Arc<Denoiser>> {
-    if !output.denoised {
+pub fn denoiser(development: &Development, console: &mut Console) -> Option<Arc<Denoiser>> {
+    if !development.output.denoised {
+        return None;
+    }
+    if development.picture.foreground_alpha {
+        console.say("note: coverage by the foreground is not denoised");
         return None;
     }
     match Denoiser::find() {

@@ -69,25 +69,33 @@ pub enum Mismatch {
 }
 
 impl FilmRecord {
-    /// Everything that keeps two films from being of the same picture, in the order of the settings.
+    /// Everything that keeps two films from being of the same picture, in the order of the settings. What only one of
+    /// them says anything of goes by what both say, so it is named only where that agrees.
     pub fn differences(&self, theirs: &Self) -> Vec<Mismatch> {
         const MISSING: &str = "not said";
-        let value = |record: &Self, name: &str| {
-            let found = record.settings.iter().find(|(n, _)| n == name);
-            found.map_or_else(|| MISSING.to_owned(), |(_, v)| v.clone())
-        };
         let mut names: Vec<&String> = self.settings.iter().map(|(n, _)| n).collect();
-        names.extend(theirs.settings.iter().map(|(n, _)| n).filter(|n| value(self, n) == MISSING));
-        let mut found: Vec<Mismatch> = names
-            .into_iter()
-            .map(|name| (name, value(theirs, name), value(self, name)))
+        names.extend(theirs.settings.iter().map(|(n, _)| n).filter(|n| self.setting(n).is_none()));
+        let pairs = names.into_iter().map(|name| (name, theirs.setting(name), self.setting(name)));
+        let (in_both, in_one): (Vec<_>, Vec<_>) = pairs
             .filter(|(_, theirs, ours)| theirs != ours)
-            .map(|(name, theirs, ours)| Mismatch::Setting { name: name.clone(), theirs, ours })
-            .collect();
+            .partition(|(_, theirs, ours)| theirs.is_some() && ours.is_some());
+        let told = if in_both.is_empty() { in_one } else { in_both };
+        let words = |value: Option<&str>| value.unwrap_or(MISSING).to_owned();
+        let mismatch = |(name, theirs, ours): (&String, _, _)| Mismatch::Setting {
+            name: name.clone(),
+            theirs: words(theirs),
+            ours: words(ours),
+        };
+        let mut found: Vec<Mismatch> = told.into_iter().map(mismatch).collect();
         if self.scene_hash != theirs.scene_hash {
             found.push(Mismatch::Scene);
         }
         found
+    }
+
+    /// The value of a setting that decided the film.
+    pub fn setting(&self, name: &str) -> Option<&str> {
+        self.settings.iter().find(|(n, _)| n == name).map(|(_, value)| value.as_str())
     }
 
     /// The unit from which a seed has not been used.
@@ -163,7 +171,11 @@ mod tests {
         let a = record(&[("width", "10"), ("max_depth", "3")], &[]);
         let b = record(&[("width", "20"), ("max_depth", "3"), ("new", "1")], &[]);
         let said: Vec<String> = a.differences(&b).iter().map(ToString::to_string).collect();
-        assert_eq!(said, ["width is 20 there, and 10 here", "new is 1 there, and not said here"]);
+        assert_eq!(said, ["width is 20 there, and 10 here"], "what goes by the width need not be named");
+        let longer = record(&[("width", "10"), ("max_depth", "3"), ("new", "1")], &[]);
+        let said: Vec<String> = a.differences(&longer).iter().map(ToString::to_string).collect();
+        assert_eq!(said, ["new is 1 there, and not said here"]);
+        assert_eq!((a.setting("max_depth"), a.setting("new")), (Some("3"), None));
         let other = FilmRecord { scene_hash: [1; 32], ..a.clone() };
         assert_eq!(a.differences(&other), [Mismatch::Scene]);
         assert!(a.differences(&a).is_empty());

@@ -77,6 +77,17 @@ pub fn untonemapped(image: &XyzImage, filter: Filter, region: Option<Region>) ->
     LinearImage { width: size.width(), height: size.height(), pixels: framed(size, region, pixels) }
 }
 
+/// Makes the linear picture that settings ask for: that of [`untonemapped`], or coverage by the foreground as grey.
+pub fn linear_picture(image: &XyzImage, settings: &PictureSettings) -> LinearImage {
+    let mut picture = untonemapped(image, settings.downsize, settings.region);
+    if settings.foreground_alpha {
+        picture.pixels.par_iter_mut().for_each(|pixel| *pixel = [pixel[3]; 4]);
+        // A filter with negative lobes overshoots.
+        clamp(&mut picture.pixels);
+    }
+    picture
+}
+
 /// The light on the sensor that a linear picture shows, without super-sampling. Errors: it has no pixels, or too many.
 pub fn from_linear(image: &LinearImage) -> Result<XyzImage, FilmError> {
     let size = FilmSize::new(image.width, image.height, 1)?;

@@ -20,7 +20,7 @@ pub fn picture_channels(image: &LinearImage) -> Vec<Channel> {
 }
 
 /// The picture's own colours, R, G and B.
-pub(crate) fn rgb_channels(image: &LinearImage) -> Vec<Channel> {
+pub fn rgb_channels(image: &LinearImage) -> Vec<Channel> {
     channels(&image.pixels, ["R", "G", "B"], |[r, g, b, _]| [*r, *g, *b])
 }
 

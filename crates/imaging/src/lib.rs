@@ -17,12 +17,14 @@
 //! pool and give the same bits whatever its size.
 
 mod bloom;
+mod camera_facts;
 mod convolution;
 mod develop;
 mod diffraction;
 mod downsize;
 mod error;
 pub mod exr;
+mod facts;
 pub mod layers;
 mod metadata;
 mod picture;
@@ -35,9 +37,11 @@ mod white_balance;
 mod window;
 
 pub use bloom::Bloom;
-pub use develop::{develop, develop_image, from_linear, on_sensor, untonemapped};
+pub use camera_facts::CameraFacts;
+pub use develop::{develop, develop_image, from_linear, linear_picture, on_sensor, untonemapped};
 pub use diffraction::Diffraction;
 pub use error::ImagingError;
+pub use facts::Content;
 pub use metadata::{Metadata, RenderFacts};
 pub use picture::{LinearImage, Picture};
 pub use settings::{Exposure, PictureSettings, Region};

@@ -1,12 +1,16 @@
 //! Facts about a render that travel inside its pictures.
 
-use crate::ImagingError;
+use crate::{CameraFacts, ImagingError};
 use std::fmt;
 
 /// Keys and values, kept in the order in which they were added. Files hold them sorted by key.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Metadata {
     entries: Vec<(String, String)>,
+    /// The camera, for formats that have attributes of their own for it.
+    pub camera: Option<CameraFacts>,
+    /// When the picture was taken, `YYYY:MM:DD hh:mm:ss` in UTC, for the same formats.
+    pub captured: Option<String>,
 }
 
 impl Metadata {

@@ -2,13 +2,27 @@
 
 use crate::ImagingError;
 use indigo_math::Mat3;
-use indigo_spectrum::adaptation::{XYZ_TO_RGB, bradford_to_d65};
+use indigo_spectrum::adaptation::{D65_XY, XYZ_TO_RGB, bradford_to_d65};
+use indigo_spectrum::illuminant;
+use std::fmt;
 
 /// The Bradford adaptation from a named white to D65. It acts when a picture is developed, never
 /// on the film.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WhiteBalance {
     adaptation: Mat3<f64>,
+    white_xy: [f64; 2],
+}
+
+impl fmt::Display for WhiteBalance {
+    /// As scenes name it: an illuminant, or a chromaticity.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [x, y] = self.white_xy;
+        match illuminant::ALL.iter().find(|illuminant| illuminant.white_xy == self.white_xy) {
+            Some(illuminant) => f.write_str(illuminant.name),
+            None => write!(f, "{x} {y}"),
+        }
+    }
 }
 
 impl Default for WhiteBalance {
@@ -19,14 +33,14 @@ impl Default for WhiteBalance {
 
 impl WhiteBalance {
     /// The display's own white, D65: nothing is adapted.
-    pub const NONE: Self = Self { adaptation: Mat3::IDENTITY };
+    pub const NONE: Self = Self { adaptation: Mat3::IDENTITY, white_xy: D65_XY };
 
     /// Light of the CIE 1931 chromaticity (x, y) becomes a neutral grey. Errors: no white has that
     /// chromaticity.
     pub fn from_white([x, y]: [f64; 2]) -> Result<Self, ImagingError> {
         let possible = x > 0.0 && y > 0.0 && x + y <= 1.0;
         match bradford_to_d65([x, y]) {
-            Some(adaptation) if possible => Ok(Self { adaptation }),
+            Some(adaptation) if possible => Ok(Self { adaptation, white_xy: [x, y] }),
             _ => Err(ImagingError::NotAWhite { x, y }),
         }
     }

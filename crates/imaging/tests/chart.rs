@@ -5,9 +5,10 @@
 
 use indigo_film::{FilmSize, FilmState, FirstHit, LayerKind};
 use indigo_imaging::{
-    Exposure, LinearImage, Metadata, PictureSettings, Response, ToneMapping, WhiteBalance, develop, exr,
-    layers,
+    CameraFacts, Content, Exposure, LinearImage, Metadata, PictureSettings, Response, ToneMapping,
+    WhiteBalance, develop, exr, layers,
 };
+use indigo_math::Vec3d;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::process::Command;
@@ -130,7 +131,8 @@ fn the_reference_implementation_reads_our_layers() {
     let pixels: Vec<[f32; 4]> = (0..35).map(|i| [1.0, 2.0, i as f32, 0.25]).collect();
     let mut channels = layers::picture_channels(&LinearImage { width: 7, height: 5, pixels });
     channels.extend(layers::first_hit_channels(&hits));
-    let bytes = exr::encode_layers([7, 5], channels.clone(), &Metadata::default()).expect("an EXR");
+    let bytes = exr::encode_layers([7, 5], channels.clone(), &Metadata::default(), Content::Luminances)
+        .expect("an EXR");
     let path = scratch("layers.exr");
     std::fs::write(&path, bytes).expect("a file");
     let printed = python("read_layers.py", &[path.to_str().expect("a path")]);
@@ -165,7 +167,16 @@ fn read_back(bytes: Vec<u8>, name: &str) -> Option<(String, Vec<f32>)> {
     let white = lines.next().expect("a line").to_owned();
     assert_eq!(lines.next(), Some("chromaticities 0.64 0.33 0.3 0.6 0.15 0.06 0.3127 0.329"));
     assert_eq!(lines.next(), Some("indigo.scene_file_path σκηνή.igs"));
-    assert_eq!(lines.next(), Some("size 7 5"));
+    for expected in [
+        "order LineOrder.INCREASING_Y scanlines",
+        "date 2026:02:28 23:59:58 0",
+        "exposure 0.01 4 400 2.5",
+        "camera 2 1 5 1",
+        "ndc 0.7 0.3 0.2",
+        "size 7 5",
+    ] {
+        assert_eq!(lines.next(), Some(expected));
+    }
     Some((white, lines.map(|line| line.parse().expect("a number")).collect()))
 }
 
@@ -176,6 +187,20 @@ fn rgb(pixels: &[[f32; 4]]) -> Vec<f32> {
 fn metadata() -> Metadata {
     let mut metadata = Metadata::default();
     metadata.set("scene_file_path", "σκηνή.igs");
+    metadata.captured = Some("2026:02:28 23:59:58".to_owned());
+    metadata.camera = Some(CameraFacts {
+        position: Vec3d::new(1.0, 2.0, 3.0),
+        forwards: Vec3d::new(0.0, 1.0, 0.0),
+        up: Vec3d::new(0.0, 0.0, 1.0),
+        sensor_width: 0.04,
+        sensor_height: 0.02,
+        // The sensor is 2 cm behind a lens of 2 / (1 + 2 / 250) cm, whose opening is a quarter of that.
+        aperture_radius: 0.02 / 1.008 / 8.0,
+        lens_sensor_dist: 0.02,
+        focus_distance: Some(2.5),
+        exposure_duration: 0.01,
+        film_iso: Some(400.0),
+    });
     metadata
 }
 

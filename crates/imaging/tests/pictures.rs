@@ -1,7 +1,9 @@
 //! Downsizing: constants, energy, borders, regions, coverage.
 
 use indigo_film::{FilmFilter, FilmSize, FilmState, Filter, LayerKind, XyzImage};
-use indigo_imaging::{Exposure, PictureSettings, Region, ToneMapping, develop, develop_image, untonemapped};
+use indigo_imaging::{
+    Exposure, PictureSettings, Region, ToneMapping, develop, develop_image, linear_picture, untonemapped,
+};
 use indigo_math::{Real, Vec2};
 
 const FILTERS: [Filter; 4] =
@@ -178,7 +180,13 @@ fn foreground_alpha_is_grey_coverage() {
     let image = image(size(3, 1, 2), |x, _| (7.0, if x < 3 { 1.0 } else { 0.0 }));
     let mut settings = settings(Filter::Box);
     settings.foreground_alpha = true;
-    assert_eq!(develop_image(&image, &settings).pixels, [[1.0; 4], [0.5; 4], [0.0; 4]]);
+    let mask = [[1.0; 4], [0.5; 4], [0.0; 4]];
+    assert_eq!(develop_image(&image, &settings).pixels, mask);
+    assert_eq!(linear_picture(&image, &settings).pixels, mask);
+    // A filter with negative lobes leaves no coverage below 0 or above 1.
+    settings.downsize = Filter::MitchellNetravali { blur: 0.0, ring: 0.5 };
+    let pixels = linear_picture(&image, &settings).pixels;
+    assert!(pixels.iter().flatten().all(|v| (0.0..=1.0).contains(v)) && pixels[0] == [1.0; 4], "{pixels:?}");
 }
 
 /// The light of one output pixel, away from the borders, is all in the picture, and an even picture stays even, for

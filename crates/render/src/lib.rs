@@ -4,6 +4,7 @@
 //! equal clients of it. Below this crate nothing starts a thread, reads a clock or touches a disk.
 
 pub mod atomic;
+pub mod calendar;
 pub mod denoise;
 pub mod disk;
 mod error_estimate;

@@ -1,13 +1,18 @@
 //! Saving pictures: developed from a copy of the film, on a thread of their own.
 
+mod metadata;
+mod paths;
+
+pub use paths::{OutputPaths, PicturePaths};
+
 use crate::atomic::{check_writable, write_atomically};
 use crate::denoise::{DenoiseError, Denoiser};
 use crate::first_hits::SceneFirstHits;
 use crate::pool::with_jobs;
 use indigo_film::{FilmRecord, FilmState, Filter, FirstHit, SavedFilm, XyzImage, igi};
 use indigo_imaging::{
-    Exposure, ImagingError, LinearImage, Metadata, Picture, PictureSettings, RenderFacts, ToneMapping,
-    develop_image, exr, from_linear, layers, on_sensor, png, untonemapped,
+    Content, Exposure, ImagingError, LinearImage, Metadata, Picture, PictureSettings, ToneMapping,
+    develop_image, exr, from_linear, layers, linear_picture, on_sensor, png, untonemapped,
 };
 use indigo_scene::{Development, Scene};
 use indigo_transport::driver::is_indirect;
@@ -17,50 +22,6 @@ use std::io::{BufWriter, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::thread::JoinHandle;
-
-/// Where pictures go.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct OutputPaths {
-    /// The PNG.
-    pub png: PathBuf,
-}
-
-impl OutputPaths {
-    /// From the path of the PNG; its siblings share its stem.
-    pub fn new(png: impl Into<PathBuf>) -> Self {
-        Self { png: png.into() }
-    }
-
-    /// The EXR of luminances.
-    pub fn untonemapped_exr(&self) -> PathBuf {
-        self.sibling("_untonemapped.exr")
-    }
-
-    /// The EXR of the developed picture.
-    pub fn tonemapped_exr(&self) -> PathBuf {
-        self.sibling("_tonemapped.exr")
-    }
-
-    /// The EXR with layers.
-    pub fn layers_exr(&self) -> PathBuf {
-        self.sibling("_layers.exr")
-    }
-
-    /// The denoised PNG.
-    pub fn denoised(&self) -> PathBuf {
-        self.sibling("_denoised.png")
-    }
-
-    /// The film.
-    pub fn igi(&self) -> PathBuf {
-        self.sibling(".igi")
-    }
-
-    fn sibling(&self, ending: &str) -> PathBuf {
-        let stem = self.png.file_stem().unwrap_or_default().to_string_lossy();
-        self.png.with_file_name(format!("{stem}{ending}"))
-    }
-}
 
 /// Why a picture could not be saved.
 #[derive(Debug, thiserror::Error)]
@@ -140,40 +101,75 @@ impl SaveJob {
             all.add(write_film(&self.paths.igi(), &saved.film, record));
         }
         let image = on_sensor(saved.film.develop(), settings);
-        let metadata = self.metadata(saved);
-        let picture = develop_image(&image, settings);
-        all.add(encoded(&self.paths.png, png::encode(&picture, &metadata, output.png)));
-        let linear = || untonemapped(&image, settings.downsize, settings.region);
-        if output.untonemapped_exr {
-            all.add(encoded(&self.paths.untonemapped_exr(), exr::encode(&linear(), &metadata)));
-        }
-        if output.tonemapped_exr {
-            let bytes = exr::encode_display_linear(&as_linear(&picture), &metadata);
-            all.add(encoded(&self.paths.tonemapped_exr(), bytes));
-        }
+        let metadata = metadata::of(self, saved);
+        self.write_pictures(&image, &metadata, &self.paths.pictures(), &mut all);
         if let (true, Some(hits)) = (output.layers_exr, &self.first_hits) {
-            all.add(self.write_layers(linear(), &saved.film, hits.get(), &metadata));
+            all.add(self.write_layers(&image, &saved.film, hits.get(), &metadata));
         }
-        if let (true, Some(denoiser)) = (output.denoised, &self.denoiser) {
-            all.add(self.write_denoised(&saved.film.develop(), denoiser, &metadata));
+        if let Some(denoiser) = self.active_denoiser() {
+            match self.denoised(&saved.film.develop(), denoiser) {
+                Ok(light) => {
+                    let mut metadata = metadata;
+                    metadata.set("denoised", "by Open Image Denoise");
+                    let image = on_sensor(light, settings);
+                    self.write_pictures(&image, &metadata, &self.paths.denoised(), &mut all);
+                }
+                Err(error) => all.failures.push(error),
+            }
         }
         all
     }
 
+    /// What denoises, if anything is to be: coverage has no noise worth it.
+    fn active_denoiser(&self) -> Option<&Denoiser> {
+        let Development { picture, output, .. } = &self.development;
+        self.denoiser.as_deref().filter(|_| output.denoised && !picture.foreground_alpha)
+    }
+
+    /// Writes the pictures of the light on the sensor.
+    fn write_pictures(&self, image: &XyzImage, metadata: &Metadata, paths: &PicturePaths, all: &mut Saved) {
+        let Development { picture: settings, output, .. } = &self.development;
+        let picture = develop_image(image, settings);
+        let shown =
+            said(metadata, if settings.foreground_alpha { Content::Coverage } else { Content::Developed });
+        all.add(encoded(&paths.png, png::encode(&picture, &shown, output.png)));
+        if output.untonemapped_exr {
+            let linear = linear_picture(image, settings);
+            let bytes = if settings.foreground_alpha {
+                exr::encode_display_linear(&linear, &shown)
+            } else {
+                exr::encode(&linear, &said(metadata, Content::Luminances))
+            };
+            all.add(encoded(&paths.untonemapped_exr, bytes));
+        }
+        if output.tonemapped_exr {
+            let bytes = exr::encode_display_linear(&as_linear(&picture), &shown);
+            all.add(encoded(&paths.tonemapped_exr, bytes));
+        }
+    }
+
     fn write_layers(
         &self,
-        mut linear: LinearImage,
+        image: &XyzImage,
         film: &FilmState,
         hits: &[FirstHit],
         metadata: &Metadata,
     ) -> Result<PathBuf, SaveError> {
-        // Not the film's coverage: what light paths and Markov chains add to a film has none.
-        linear.pixels.iter_mut().zip(hits).for_each(|(pixel, hit)| pixel[3] = hit.coverage);
-        let mut channels = layers::picture_channels(&linear);
-        channels.extend(layers::direct_channels(&self.part(film, |layer| !is_indirect(layer))));
-        channels.extend(layers::indirect_channels(&self.part(film, is_indirect)));
+        let settings = &self.development.picture;
+        let mut linear = linear_picture(image, settings);
+        let (mut channels, content);
+        if settings.foreground_alpha {
+            (channels, content) = (layers::rgb_channels(&linear), Content::Coverage);
+        } else {
+            // Not the film's coverage: what light paths and Markov chains add to a film has none.
+            linear.pixels.iter_mut().zip(hits).for_each(|(pixel, hit)| pixel[3] = hit.coverage);
+            (channels, content) = (layers::picture_channels(&linear), Content::Luminances);
+            channels.extend(layers::direct_channels(&self.part(film, |layer| !is_indirect(layer))));
+            channels.extend(layers::indirect_channels(&self.part(film, is_indirect)));
+        }
         channels.extend(layers::first_hit_channels(hits));
-        let bytes = exr::encode_layers([linear.width, linear.height], channels, metadata)?;
+        let bytes =
+            exr::encode_layers([linear.width, linear.height], channels, &said(metadata, content), content)?;
         write(&self.paths.layers_exr(), &bytes)
     }
 
@@ -184,36 +180,34 @@ impl SaveJob {
         untonemapped(&image, settings.downsize, settings.region)
     }
 
-    /// The film's light is denoised, and then developed as ever, with diffraction by the aperture.
+    /// A film's light denoised, before it is developed as ever, with diffraction by the aperture.
     ///
     /// A denoiser takes what neighbouring pixels share for a part of the picture: so it gets plain means over output pixels,
     /// which have noise of their own each, neither blurred by diffraction nor by the downsize filter.
-    fn write_denoised(
-        &self,
-        film: &XyzImage,
-        denoiser: &Denoiser,
-        metadata: &Metadata,
-    ) -> Result<PathBuf, SaveError> {
-        let Development { picture: settings, output, .. } = &self.development;
+    fn denoised(&self, film: &XyzImage, denoiser: &Denoiser) -> Result<XyzImage, SaveError> {
         let hits = self.first_hits.as_ref().map(|hits| hits.get());
-        let clean = denoiser.denoise(&untonemapped(film, Filter::Box, settings.region), hits)?;
-        let light = from_linear(&clean).map_err(|e| SaveError::Thread(e.to_string()))?;
-        let image = on_sensor(light, settings);
-        let png = png::encode(&develop_image(&image, settings), metadata, output.png)?;
-        write(&self.paths.denoised(), &png)
+        let noisy = untonemapped(film, Filter::Box, self.development.picture.region);
+        from_linear(&denoiser.denoise(&noisy, hits)?).map_err(|e| SaveError::Thread(e.to_string()))
     }
 
     /// The files that it writes.
     pub fn files(&self) -> impl Iterator<Item = PathBuf> {
         let output = &self.development.output;
-        let wanted = [
-            (true, self.paths.png.clone()),
+        let pictures = |paths: PicturePaths| {
+            [
+                (true, paths.png),
+                (output.untonemapped_exr, paths.untonemapped_exr),
+                (output.tonemapped_exr, paths.tonemapped_exr),
+            ]
+        };
+        let mut wanted = vec![
             (output.igi, self.paths.igi()),
-            (output.untonemapped_exr, self.paths.untonemapped_exr()),
-            (output.tonemapped_exr, self.paths.tonemapped_exr()),
             (output.layers_exr && self.first_hits.is_some(), self.paths.layers_exr()),
-            (output.denoised && self.denoiser.is_some(), self.paths.denoised()),
         ];
+        wanted.extend(pictures(self.paths.pictures()));
+        if self.active_denoiser().is_some() {
+            wanted.extend(pictures(self.paths.denoised()));
+        }
         wanted.into_iter().filter(|(is_wanted, _)| *is_wanted).map(|(_, path)| path)
     }
 
@@ -226,40 +220,6 @@ impl SaveJob {
             check_writable(&path).map_err(|source| SaveError::Write { path, source })?;
         }
         Ok(())
-    }
-
-    fn metadata(&self, saved: &SavedFilm) -> Metadata {
-        let Development { transport, picture, output, .. } = &self.development;
-        let size = saved.film.size;
-        let nothing = FilmRecord::default();
-        let record = saved.record.as_ref().unwrap_or(&nothing);
-        let metropolis = transport.metropolis;
-        let mut metadata = RenderFacts {
-            version: self.version.clone(),
-            scene_path: output.scene_path.clone(),
-            width: size.width(),
-            height: size.height(),
-            super_sample_factor: size.super_sample(),
-            bidirectional: transport.bidirectional,
-            // Without Metropolis sampling nothing is mutated: 0.
-            metropolis: metropolis.is_some(),
-            hybrid: transport.hybrid,
-            large_mutation_prob: metropolis.map_or(0.0, |m| m.large_mutation_prob),
-            max_change: metropolis.map_or(0.0, |m| f64::from(m.max_change)),
-            max_num_consec_rejections: metropolis
-                .map_or(0, |m| u32::try_from(m.max_consecutive_rejections).unwrap_or(u32::MAX)),
-            max_depth: transport.max_depth,
-            num_threads: self.threads as u32,
-            num_samples: record.samples as f64,
-            elapsed_s: record.elapsed_s,
-        }
-        .metadata();
-        let seeds: Vec<String> = record.runs.iter().map(|run| run.seed.to_string()).collect();
-        metadata.set("seed", seeds.join(" "));
-        metadata.set("aperture_area", picture.exposure.aperture_area);
-        metadata.set("lens_sensor_dist", picture.exposure.lens_sensor_dist);
-        metadata.set("exposure_duration", picture.exposure.duration);
-        metadata
     }
 
     /// Starts [`save`](Self::save) on a thread of its own.
@@ -332,21 +292,13 @@ pub fn write_strategies(scene: &Scene, seed: u64, passes: u32, path: &Path) -> R
     write(path, &png::encode(&picture, &Metadata::default(), png::Format::default())?)
 }
 
-fn as_linear(picture: &Picture) -> LinearImage {
-    LinearImage { width: picture.width, height: picture.height, pixels: picture.pixels.clone() }
+/// The metadata of a file with that content.
+fn said(metadata: &Metadata, content: Content) -> Metadata {
+    let mut metadata = metadata.clone();
+    metadata.set("content", content);
+    metadata
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn siblings_share_the_stem() {
-        let paths = OutputPaths::new("out/x.y.png");
-        assert_eq!(paths.untonemapped_exr(), Path::new("out/x.y_untonemapped.exr"));
-        assert_eq!(paths.tonemapped_exr(), Path::new("out/x.y_tonemapped.exr"));
-        assert_eq!(paths.layers_exr(), Path::new("out/x.y_layers.exr"));
-        assert_eq!(paths.denoised(), Path::new("out/x.y_denoised.png"));
-        assert_eq!(paths.igi(), Path::new("out/x.y.igi"));
-    }
+fn as_linear(picture: &Picture) -> LinearImage {
+    LinearImage { width: picture.width, height: picture.height, pixels: picture.pixels.clone() }
 }

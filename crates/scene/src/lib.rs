@@ -15,7 +15,7 @@ mod settings;
 
 pub use load::{LoadOptions, Loaded, LoadedDevelopment, Override, load, load_development};
 pub use scene::{
-    DIFFRACTION_OF_RAYS, Development, FilmSettings, Identity, MetropolisSettings, OutputSettings, Scene,
-    SceneStats, TransportSettings,
+    DIFFRACTION_OF_RAYS, Development, FOREGROUND_ALPHA, FilmSettings, Identity, MetropolisSettings,
+    OutputSettings, Scene, SceneStats, TransportSettings,
 };
 pub use settings::{Listed, Origin, Settings};

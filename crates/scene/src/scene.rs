@@ -3,7 +3,7 @@
 use indigo_camera::Camera;
 use indigo_film::{FilmFilter, FilmSize, Filter};
 use indigo_geom::{Accel, SurfacePoint};
-use indigo_imaging::{PictureSettings, png};
+use indigo_imaging::{CameraFacts, PictureSettings, png};
 use indigo_light::LightTable;
 use indigo_math::Real;
 use indigo_scatter::{Interface, Material, MaterialContext, Medium, MediumStack};
@@ -45,6 +45,8 @@ pub struct Scene {
     pub film: FilmSettings,
     /// How the picture is made from the film.
     pub picture: PictureSettings,
+    /// What pictures tell of the camera.
+    pub camera_facts: CameraFacts,
     /// What is written, and when.
     pub output: OutputSettings,
     /// What films of this scene have in common.
@@ -53,6 +55,9 @@ pub struct Scene {
 
 /// The name of the setting of an [`Identity`] that is `true` where diffraction deflects rays.
 pub const DIFFRACTION_OF_RAYS: &str = "diffraction of rays";
+
+/// The name of the setting of an [`Identity`] that is `true` where the film holds what hides the background and no light.
+pub const FOREGROUND_ALPHA: &str = "render_foreground_alpha";
 
 /// What a film must have been rendered from to be of the same picture.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -72,6 +77,8 @@ pub struct Development {
     pub size: FilmSize,
     /// How the picture is made from the film.
     pub picture: PictureSettings,
+    /// What pictures tell of the camera.
+    pub camera: CameraFacts,
     /// What is written.
     pub output: OutputSettings,
 }
@@ -193,6 +200,7 @@ impl Scene {
             transport: self.transport,
             size: self.film.size,
             picture: self.picture.clone(),
+            camera: self.camera_facts,
             output: self.output.clone(),
         }
     }

@@ -78,9 +78,39 @@ fn a_denoised_picture_lies_beside_the_noisy_one() {
     let sharp = "<super_sample_factor>1</super_sample_factor>";
     let bench = Workbench::new(&format!("{QUIET}{sharp}"));
     let library = stand_in(&bench);
-    let arguments = ["scene.igs", "-haltspp", "2", "-seed", "3", "-t", "1", "-o", "a.png", "-denoise"];
+    let text = std::fs::read_to_string(bench.path("scene.igs")).expect("the scene");
+    let exrs = "<save_untonemapped_exr>true</save_untonemapped_exr><save_tonemapped_exr>true</save_tonemapped_exr></renderer_settings>";
+    bench.write("exrs.igs", &text.replace("</renderer_settings>", exrs));
+    let arguments = ["exrs.igs", "-haltspp", "2", "-seed", "3", "-t", "1", "-o", "a.png", "-denoise"];
     let ran = bench.run_with("INDIGO_OIDN", &library, &arguments);
     assert_eq!(ran.status, Some(0), "{ran:?}");
+    for kind in ["untonemapped", "tonemapped"] {
+        let green = |name: &str| {
+            let image = exr::prelude::read_first_flat_layer_from_file(bench.path(name)).expect("an EXR");
+            let told = format!(
+                "{:?}",
+                image.layer_data.attributes.other.get(&exr::prelude::Text::from("indigo.denoised"))
+            );
+            let green = image.layer_data.channel_data.list.iter().find(|c| c.name.eq("G")).expect("green");
+            (green.sample_data.values_as_f32().collect::<Vec<_>>(), told)
+        };
+        let (noisy, denoised) = (green(&format!("a_{kind}.exr")), green(&format!("a_denoised_{kind}.exr")));
+        assert!(
+            noisy.1 == "None" && denoised.1.contains("by Open Image Denoise"),
+            "{} {}",
+            noisy.1,
+            denoised.1
+        );
+        for (i, v) in denoised.0.iter().enumerate() {
+            let mirrored = noisy.0[i / 40 * 40 + 39 - i % 40];
+            assert!(
+                (v - mirrored).abs() <= 1e-5 * mirrored.abs() + 1e-6,
+                "{kind}, pixel {i}: {v} {mirrored}"
+            );
+        }
+    }
+    let told = |name| bench.run(&["-dumpmetadata", name]).stdout.contains("denoised: by Open Image Denoise");
+    assert!(told("a_denoised.png") && !told("a.png"));
     assert!(ran.stderr.contains("a_denoised.png") && !ran.stderr.contains("warning"), "{}", ran.stderr);
     let (noisy, denoised) = (codes(&bench, "a.png"), codes(&bench, "a_denoised.png"));
     let mirrored: Vec<u8> =

@@ -323,6 +323,45 @@ fn foreground_alpha_is_smooth_in_every_mode() {
     }
 }
 
+/// Whichever EXR somebody takes for a mask is one, without a luminance of white.
+#[test]
+fn every_exr_of_a_mask_is_the_mask() {
+    let settings = "<render_foreground_alpha>true</render_foreground_alpha><save_untonemapped_exr>true</save_untonemapped_exr>\
+        <save_tonemapped_exr>true</save_tonemapped_exr><save_layers_exr>true</save_layers_exr>";
+    let bench = Workbench::new(&format!("{QUIET}{settings}"));
+    let ran = bench.run(&["scene.igs", "-haltspp", "16", "-o", "a.png", "-denoise"]);
+    assert_eq!(ran.status, Some(0), "{ran:?}");
+    assert!(ran.stderr.contains("note: coverage by the foreground is not denoised"), "{}", ran.stderr);
+    let red = |name: &str| {
+        let image = exr::prelude::read_first_flat_layer_from_file(bench.path(name)).expect("an EXR");
+        let attributes = &image.layer_data.attributes;
+        let content = attributes.other.get(&exr::prelude::Text::from("indigo.content"));
+        (
+            image
+                .layer_data
+                .channel_data
+                .list
+                .iter()
+                .find(|c| c.name.eq("R"))
+                .expect("red")
+                .sample_data
+                .values_as_f32()
+                .collect::<Vec<_>>(),
+            attributes.white_luminance,
+            format!("{content:?}"),
+        )
+    };
+    let mask = red("a_tonemapped.exr").0;
+    assert!(mask[15 * 40 + 20] == 1.0 && mask[0] == 0.0 && mask.iter().any(|v| (0.1..0.9).contains(v)));
+    for name in ["a_untonemapped.exr", "a_tonemapped.exr", "a_layers.exr"] {
+        let (values, white, content) = red(name);
+        let is_near = |(a, b): (&f32, &f32)| (a - b).abs() < 0.3;
+        assert!(values.iter().zip(&mask).all(is_near) && values[0] == 0.0, "{name}");
+        assert_eq!(white, None, "{name}");
+        assert!(content.contains("coverage by the foreground"), "{name}: {content}");
+    }
+}
+
 #[test]
 fn an_estimated_error_ends_a_render() {
     let bench = Workbench::new(QUIET);

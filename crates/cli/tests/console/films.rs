@@ -173,6 +173,81 @@ fn what_developing_cannot_do_right_is_said() {
     assert!(bench.path("c.png").exists() && !bench.path("c_layers.exr").exists());
 }
 
+/// What hides the background is no light, and light does not tell what hides the background: a film is developed as what
+/// it holds, and the setting that differs is the one that is named.
+#[test]
+fn masks_and_light_are_not_taken_for_each_other() {
+    let bench = Workbench::new(SAVED);
+    let text = std::fs::read_to_string(bench.path("scene.igs")).expect("the scene");
+    let mask = "<render_foreground_alpha>true</render_foreground_alpha></renderer_settings>";
+    bench.write("mask.igs", &text.replace("</renderer_settings>", mask));
+    ok(&bench.run(&["scene.igs", "-haltspp", "1", "-o", "light.png"]));
+    ok(&bench.run(&["mask.igs", "-haltspp", "1", "-o", "mask.png"]));
+    ok(&bench.run(&["--tonemap", "mask.igs", "mask.igi", "again.png"]));
+    for (scene, film, says) in [
+        ("scene.igs", "mask.igi", "holds what hides the background, and no light"),
+        ("mask.igs", "light.igi", "holds light, but in the scene render_foreground_alpha is true"),
+    ] {
+        let ran = bench.run(&["--tonemap", scene, film, "x.png"]);
+        assert!(ran.status == Some(2) && ran.stderr.contains(says), "{ran:?}");
+        assert!(!bench.path("x.png").exists());
+        let ran = bench.run(&[scene, "-haltspp", "2", "-r", film, "-o", "x.png"]);
+        assert!(ran.status == Some(2) && ran.stderr.contains(": render_foreground_alpha is "), "{ran:?}");
+        assert!(!ran.stderr.contains("max_depth") && !ran.stderr.contains("layers"), "{}", ran.stderr);
+    }
+}
+
+/// Of two developments of one film the pictures tell which is which.
+#[test]
+fn pictures_tell_how_they_were_developed() {
+    let bench = Workbench::new(SAVED);
+    ok(&bench.run(&["scene.igs", "-haltspp", "1", "-o", "a.png"]));
+    let text = std::fs::read_to_string(bench.path("scene.igs")).expect("the scene");
+    let camera = "<exposure_duration>0.5</exposure_duration><white_balance>D50</white_balance></camera>";
+    let (from, to) = (text.find("<reinhard>"), text.find("</tonemapping>"));
+    let (from, to) = (from.expect("tone mapping"), to.expect("its end"));
+    let mapping = "<camera><response_function_path></response_function_path><ev_adjust>1.5</ev_adjust><film_iso>200</film_iso></camera>";
+    let text = format!("{}{mapping}{}", text[..from].replace("</camera>", camera), &text[to..]);
+    let box_filter = "<downsize_filter><box/></downsize_filter></renderer_settings>";
+    bench.write("b.igs", &text.replace("</renderer_settings>", box_filter));
+    ok(&bench.run(&["--tonemap", "b.igs", "a.igi", "b.png"]));
+    let expected = [
+        (
+            "a.png",
+            [
+                "tone_mapping: reinhard with pre_scale 4, post_scale 1, burn 6",
+                "white_balance: D65",
+                "exposure_duration: 0.01",
+                "downsize_filter: mn_cubic with blur 0.6, ring 0.2",
+            ],
+        ),
+        (
+            "b.png",
+            [
+                "tone_mapping: camera with ev_adjust 1.5, film_iso 200, no response_function_path",
+                "white_balance: D50",
+                "exposure_duration: 0.5",
+                "downsize_filter: box",
+            ],
+        ),
+    ];
+    for (picture, lines) in expected {
+        let told = bench.run(&["-dumpmetadata", picture]).stdout;
+        for line in lines.into_iter().chain([
+            "splat_filter: gaussian",
+            "aperture_diffraction: none",
+            "content: the developed picture",
+            "camera_position: 0 0 0",
+            "camera_forwards: 0 1 0",
+            "camera_up: 0 0 1",
+            "sensor_width: 0.036",
+            "focus_distance: 4",
+        ]) {
+            assert!(told.lines().any(|l| l == line), "{picture} lacks '{line}':\n{told}");
+        }
+    }
+}
+
 /// A disk that holds some saves and then no more: the limit on the size of files stands in for it. Whatever fits
 /// is complete, and what does not leaves the last one.
 #[cfg(unix)]

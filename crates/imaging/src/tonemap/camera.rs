@@ -33,6 +33,7 @@ pub struct Curve {
 pub struct Response {
     curves: [Curve; 3],
     decode: Vec<f32>,
+    name: String,
 }
 
 impl Response {
@@ -45,7 +46,18 @@ impl Response {
 
     fn of(curves: [Curve; 3]) -> Self {
         let decode = (0..=DECODE_CELLS).map(|i| srgb::decode(i as f64 / DECODE_CELLS as f64) as f32);
-        Self { curves, decode: decode.collect() }
+        Self { curves, decode: decode.collect(), name: String::new() }
+    }
+
+    /// The same with the name of its file, which pictures tell.
+    #[must_use]
+    pub fn named(self, name: &str) -> Self {
+        Self { name: name.to_owned(), ..self }
+    }
+
+    /// The name of its file; empty where there is none.
+    pub fn name(&self) -> &str {
+        &self.name
     }
 
     /// The response of a display: what the sensor gathers is shown as it is, up to saturation.

@@ -38,7 +38,7 @@ fn saved_exr(scene: &Scene, passes: u64, name: &str) -> Image {
     let film = film(scene, 5, passes);
     let directory = scratch(name);
     let paths = OutputPaths::new(directory.join("x.png"));
-    let exr = paths.untonemapped_exr();
+    let exr = paths.pictures().untonemapped_exr;
     let job = SaveJob {
         development: scene.development(),
         paths,

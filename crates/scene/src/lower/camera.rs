@@ -10,7 +10,7 @@ use indigo_decl::Node;
 use indigo_decl::codes::OUT_OF_RANGE;
 use indigo_diag::{Diagnostic, Sink};
 use indigo_geom::{Accel, Ray, SurfacePoint};
-use indigo_imaging::Diffraction as DiffractionFilter;
+use indigo_imaging::{CameraFacts, Diffraction as DiffractionFilter, PictureSettings};
 use indigo_math::{Float, Vec3, Vec3d};
 use std::sync::Arc;
 
@@ -23,6 +23,7 @@ pub(super) struct Unfocused {
     aperture: Aperture,
     pupil: Pupil,
     diffraction: Diffraction,
+    /// Whether that is so.
     autofocus: bool,
 }
 
@@ -182,6 +183,7 @@ pub(super) fn focus(
             }
             ray = ray.beyond(hit.t, at.p_error.length());
         };
+        camera.autofocus = false;
     }
     camera
 }
@@ -190,6 +192,24 @@ impl Unfocused {
     /// Area of the opening in m².
     pub(super) fn aperture_area(&self) -> f64 {
         self.aperture.area() * self.lens.aperture_radius.powi(2)
+    }
+
+    /// What pictures tell of it, where it stands at a place of the world.
+    pub(super) fn facts(&self, position: Vec3d, picture: &PictureSettings) -> CameraFacts {
+        let lens = &self.lens;
+        let forwards = lens.forwards.normalized();
+        CameraFacts {
+            position,
+            forwards,
+            up: forwards.cross(lens.up).cross(forwards).normalized(),
+            sensor_width: lens.sensor_width,
+            sensor_height: lens.sensor_height,
+            aperture_radius: lens.aperture_radius,
+            lens_sensor_dist: lens.lens_sensor_dist,
+            focus_distance: (!self.autofocus).then_some(lens.focus_distance),
+            exposure_duration: picture.exposure.duration,
+            film_iso: picture.film_iso(),
+        }
     }
 
     /// Diffraction as a filter on the picture, if that is how it is rendered.

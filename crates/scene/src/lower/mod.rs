@@ -108,8 +108,10 @@ pub(crate) fn development(
     let output = picture::output(settings, path);
     let node = find_camera(root, context.sink);
     let camera = node.and_then(|c| camera::parameters(c, settings, film.as_ref(), &mut context));
-    let picture = picture::picture(root, node.zip(camera.as_ref()), settings, &mut context);
-    Some(Development { transport, size: film?.size, picture: picture?, output })
+    let picture = picture::picture(root, node.zip(camera.as_ref()), settings, &mut context)?;
+    let position = node.map_or(Vec3d::ZERO, |c| camera::position(c, context.sink));
+    let camera = camera?.facts(position, &picture);
+    Some(Development { transport, size: film?.size, picture, camera, output })
 }
 
 fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) -> Option<Scene> {
@@ -179,7 +181,9 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
         let slot = first_slot[at.object as usize] + at.material_slot;
         matches!(materials[slots[slot as usize] as usize], Material::Null)
     };
-    let camera = camera::focus(camera?, &accel, is_unseen).into_camera()?;
+    let (camera, picture) = (camera::focus(camera?, &accel, is_unseen), picture?);
+    let camera_facts = camera.facts(origin, &picture);
+    let camera = camera.into_camera()?;
     let mut scene = Scene {
         has_unseen_surfaces: slots.iter().any(|&m| materials[m as usize].may_be_unseen()),
         accel,
@@ -197,7 +201,8 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
         nudge_m: settings.real("ray_origin_nudge_distance") as indigo_math::Real,
         transport,
         film: film?,
-        picture: picture?,
+        picture,
+        camera_facts,
         output: OutputSettings { aperture_preview, ..output },
         identity: Identity { hash: [0; 32], settings: decisive? },
     };

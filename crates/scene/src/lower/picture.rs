@@ -3,7 +3,7 @@
 use super::Context;
 use super::camera::Unfocused;
 use crate::codes;
-use crate::scene::{DIFFRACTION_OF_RAYS, FilmSettings, OutputSettings, TransportSettings};
+use crate::scene::{DIFFRACTION_OF_RAYS, FOREGROUND_ALPHA, FilmSettings, OutputSettings, TransportSettings};
 use crate::settings::Settings;
 use indigo_decl::Node;
 use indigo_diag::{Diagnostic, Sink};
@@ -71,24 +71,31 @@ pub(super) fn decisive(
     // Only Metropolis sampling looks at it.
     let rejections = transport.metropolis.map_or(0, |m| m.max_consecutive_rejections);
     let by_rays = settings.bool("aperture_diffraction") && !settings.bool("post_process_diffraction");
-    let values = [
+    let is_mask = settings.bool(FOREGROUND_ALPHA);
+    let mut values = vec![
+        (FOREGROUND_ALPHA, is_mask.to_string()),
         ("width", size.width().to_string()),
         ("height", size.height().to_string()),
         ("super_sample_factor", size.super_sample().to_string()),
         ("render_region", region),
         ("splat_filter", film.splat.to_string()),
-        ("bidirectional", transport.bidirectional.to_string()),
-        ("metropolis", transport.metropolis.is_some().to_string()),
-        ("hybrid", transport.hybrid.to_string()),
-        ("max_depth", transport.max_depth.to_string()),
-        ("max_num_consec_rejections", rejections.to_string()),
         ("ray_origin_nudge_distance", settings.real("ray_origin_nudge_distance").to_string()),
         ("vignetting", settings.bool("vignetting").to_string()),
         (DIFFRACTION_OF_RAYS, by_rays.to_string()),
-        // Direct and indirect light are kept apart then.
-        ("save_layers_exr", settings.bool("save_layers_exr").to_string()),
     ];
-    values.map(|(name, value)| (name.to_owned(), value)).to_vec()
+    if !is_mask {
+        // A mask is rendered in one way, whatever these say.
+        values.extend([
+            ("bidirectional", transport.bidirectional.to_string()),
+            ("metropolis", transport.metropolis.is_some().to_string()),
+            ("hybrid", transport.hybrid.to_string()),
+            ("max_depth", transport.max_depth.to_string()),
+            ("max_num_consec_rejections", rejections.to_string()),
+            // Direct and indirect light, and the background, are kept apart then.
+            ("save_layers_exr", settings.bool("save_layers_exr").to_string()),
+        ]);
+    }
+    values.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
 }
 
 fn region(settings: &Settings, size: FilmSize, sink: &mut Sink) -> Option<Region> {
@@ -217,6 +224,7 @@ fn response(camera: &Node, context: &mut Context) -> Option<Response> {
     let curves = curves.ok()?;
     // What was read has been checked for all that is asked of curves here.
     Response::new([0, 1, 2].map(|c: usize| (&*curves[c].irradiance, &*curves[c].brightness)))
+        .map(|response| response.named(&path.value))
 }
 
 fn png(settings: &Settings) -> png::Format {
