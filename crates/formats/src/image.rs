@@ -1,18 +1,18 @@
 //! Pictures as plain texels: PNG, JPEG, TGA, BMP, TIFF, Radiance HDR (by the crate `image`) and EXR (by
 //! `exr`).
 
-use std::io::Cursor;
 use std::panic::{UnwindSafe, catch_unwind};
 
 use crate::error::{FormatError, Position};
 
 mod exr_file;
+mod jpeg_frame;
 mod radiance;
 mod raster;
 
 /// The widest and highest picture that is read.
 const MAX_SIDE: u32 = 32_768;
-/// The most memory that a decoded picture may take, in bytes.
+/// The most memory that decoding may take, in bytes: a picture, and what its decoder holds beside it.
 const MAX_BYTES: u64 = 4 << 30;
 
 /// Chromaticities (x, y) by CIE 1931 of red, green, blue and white.
@@ -49,21 +49,30 @@ pub enum Pixels {
 /// extension does.
 ///
 /// # Errors
-/// For a kind that is not known, for damaged files, for headers that are not as they must be and for pictures wider or higher than 32,768 texels or larger than
-/// 4 GiB when decoded. Positions are lines of a Radiance file's header, or else the file's start: the decoders do not
-/// tell more.
+/// For a kind that is not known, for damaged files, for headers that are not as they must be and for pictures wider or
+/// higher than 32,768 texels or of which decoding takes more than 4 GiB. Positions are lines of a Radiance file's header,
+/// or else the file's start: the decoders do not tell more.
 pub fn decode(file_name: &str, bytes: &[u8]) -> Result<Image, FormatError> {
+    decode_within(file_name, bytes, MAX_BYTES)
+}
+
+/// The same with another bound on the memory that decoding takes: the texels, what a decoder keeps of the whole picture
+/// beside them and the copies that it makes. Some rows, tables and copies of the file itself do not count.
+///
+/// # Errors
+/// As those of [`decode`].
+pub fn decode_within(file_name: &str, bytes: &[u8], most_bytes: u64) -> Result<Image, FormatError> {
     if bytes.starts_with(&exr_file::MAGIC) {
-        return guarded("EXR", || exr_file::decode(bytes));
+        return guarded("EXR", || exr_file::decode(bytes, most_bytes));
     }
     if bytes.starts_with(radiance::MAGIC) {
-        return guarded("HDR", || radiance::decode(bytes));
+        return guarded("HDR", || radiance::decode(bytes, most_bytes));
     }
     let by_content = ::image::guess_format(bytes).ok();
     let by_name = || ::image::ImageFormat::from_path(file_name).ok();
     match by_content.or_else(by_name) {
         Some(format) if raster::is_known(format) => {
-            guarded(raster::name(format), || raster::decode(format, Cursor::new(bytes)))
+            guarded(raster::name(format), || raster::decode(format, bytes, most_bytes))
         }
         _ => Err(FormatError::new(
             Position::Byte(0),
@@ -86,17 +95,28 @@ fn guarded(
     })
 }
 
-/// Refuses a size beyond the limits; called before anything is allocated for it.
-fn check_size(width: u64, height: u64, texel_bytes: u64) -> Result<(), FormatError> {
-    let side = u64::from(MAX_SIDE);
-    let fits = (1..=side).contains(&width) && (1..=side).contains(&height);
-    if fits && width * height * texel_bytes <= MAX_BYTES {
+/// Refuses sides beyond the limits; called before anything is allocated for them.
+fn check_sides(width: u64, height: u64) -> Result<(), FormatError> {
+    let side = 1..=u64::from(MAX_SIDE);
+    if side.contains(&width) && side.contains(&height) {
         return Ok(());
     }
     Err(FormatError::new(
         Position::Byte(0),
-        format!("a picture of 1 to {MAX_SIDE} texels each way and at most {MAX_BYTES} bytes"),
-        format!("{width} x {height} texels of {texel_bytes} bytes"),
+        format!("a picture of 1 to {MAX_SIDE} texels each way"),
+        format!("{width} x {height} texels"),
+    ))
+}
+
+/// Refuses what takes more memory than it may; called before that is allocated.
+fn check_memory(bytes: u64, most_bytes: u64) -> Result<(), FormatError> {
+    if bytes <= most_bytes {
+        return Ok(());
+    }
+    Err(FormatError::new(
+        Position::Byte(0),
+        format!("a picture that takes at most {most_bytes} bytes to decode"),
+        format!("one that takes {bytes} bytes"),
     ))
 }
 

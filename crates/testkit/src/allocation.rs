@@ -53,8 +53,8 @@ fn count(change: isize) {
     });
 }
 
-// SAFETY: every call goes to the system's allocator unchanged; counting allocates nothing. A block that grows is a new
-// one, a copy and the end of the old (the provided `realloc`): both exist for a moment, and count.
+// SAFETY: every call goes to the system's allocator unchanged; counting allocates nothing. A block that grows counts as a
+// new one beside the old, since the system may copy it; one that shrinks keeps its place.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         count(layout.size() as isize);
@@ -66,5 +66,16 @@ unsafe impl GlobalAlloc for Counting {
         count(-(layout.size() as isize));
         // SAFETY: as the caller promised.
         unsafe { System.dealloc(pointer, layout) }
+    }
+
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, new_size: usize) -> *mut u8 {
+        if new_size > layout.size() {
+            count(new_size as isize);
+            count(-(layout.size() as isize));
+        } else {
+            count(new_size as isize - layout.size() as isize);
+        }
+        // SAFETY: as the caller promised.
+        unsafe { System.realloc(pointer, layout, new_size) }
     }
 }

@@ -5,21 +5,30 @@ use std::io::Cursor;
 use exr::meta::MetaData;
 use exr::prelude::*;
 
-use super::{Image, Pixels, Primaries, check_size, decoder_error};
+use super::{Image, Pixels, Primaries, check_memory, check_sides, decoder_error};
 use crate::error::{FormatError, Position};
 
 /// The bytes that every EXR file starts with.
 pub(super) const MAGIC: [u8; 4] = [0x76, 0x2F, 0x31, 0x01];
 
+/// How often the decoder (`exr` 1.74.2) holds a block of the file at once: as it is stored, as its compression left it, and
+/// as it is passed on.
+const COPIES_OF_A_BLOCK: u64 = 4;
+
 /// Decodes the data window; where it lies in the display window is not told.
-pub(super) fn decode(bytes: &[u8]) -> std::result::Result<Image, FormatError> {
+pub(super) fn decode(bytes: &[u8], most_bytes: u64) -> std::result::Result<Image, FormatError> {
     let complaint = |error: exr::error::Error| decoder_error("EXR", &error);
     let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(complaint)?;
     for header in &meta.headers {
         let Vec2(width, height) = header.layer_size;
-        // What the decoder keeps of a row of the file and of ours, at four bytes a value.
-        let texel_bytes = 4 * header.channels.list.len().max(3) as u64;
-        check_size(width as u64, height as u64, texel_bytes)?;
+        check_sides(width as u64, height as u64)?;
+        // Ours are three floats a texel. A block may be a tile as large as the picture, or larger.
+        let texels = 12 * width as u64 * height as u64;
+        let Vec2(block_width, block_height) = header.max_block_pixel_size();
+        let block = (block_width as u64)
+            .saturating_mul(block_height as u64)
+            .saturating_mul(header.channels.bytes_per_pixel as u64);
+        check_memory(texels.saturating_add(block.saturating_mul(COPIES_OF_A_BLOCK)), most_bytes)?;
     }
     let has =
         |names: &[&str]| meta.headers.iter().any(|header| names.iter().all(|name| has_channel(header, name)));

@@ -10,7 +10,7 @@ use std::io::Read;
 use ::image::DynamicImage;
 use ::image::codecs::hdr::HdrDecoder;
 
-use super::{Image, Pixels, Primaries, check_size, decoder_error};
+use super::{Image, Pixels, Primaries, check_memory, check_sides, decoder_error};
 use crate::error::{FormatError, Position};
 
 /// How every Radiance picture begins; the name of a program follows.
@@ -37,10 +37,13 @@ struct Scan {
     is_turned: [bool; 2],
 }
 
-pub(super) fn decode(bytes: &[u8]) -> Result<Image, FormatError> {
+pub(super) fn decode(bytes: &[u8], most_bytes: u64) -> Result<Image, FormatError> {
     let (header, texels) = read_header(bytes)?;
     let Scan { lines, length, .. } = header.scan;
-    check_size(length.into(), lines.into(), 12)?;
+    check_sides(length.into(), lines.into())?;
+    // Three floats a texel, and what is turned is copied.
+    let texel_bytes = if header.scan.is_usual() { 12 } else { 24 };
+    check_memory(u64::from(length) * u64::from(lines) * texel_bytes, most_bytes)?;
     // The decoder knows one magic, and pictures that lie as most do.
     let head = format!("#?RADIANCE\n\n-Y {lines} +X {length}\n");
     let complaint = |error: ::image::ImageError| decoder_error("HDR", &error);
@@ -153,9 +156,14 @@ impl Scan {
         Some(Self { lines: lines.parse().ok()?, length: length.parse().ok()?, is_upright, is_turned })
     }
 
+    /// Whether scanlines are rows from the top, and texels run from the left.
+    fn is_usual(self) -> bool {
+        !self.is_upright && self.is_turned == [false; 2]
+    }
+
     /// The values of scanlines in rows from the top.
     fn in_rows(self, scanlines: Vec<f32>) -> Vec<f32> {
-        if !self.is_upright && self.is_turned == [false; 2] {
+        if self.is_usual() {
             return scanlines;
         }
         let (lines, length) = (self.lines as usize, self.length as usize);
@@ -168,6 +176,8 @@ impl Scan {
             let y = if is_up { height - 1 - y } else { y };
             if self.is_upright { x * length + y } else { y * length + x }
         };
-        (0..width * height).flat_map(|k| texels.get(place(k)).copied().unwrap_or_default()).collect()
+        let mut rows = Vec::with_capacity(scanlines.len());
+        rows.extend((0..width * height).flat_map(|k| texels.get(place(k)).copied().unwrap_or_default()));
+        rows
     }
 }

@@ -1,4 +1,4 @@
-use std::io::Write;
+use std::io::{Cursor, Write};
 
 use ::image::{DynamicImage, GrayImage, ImageBuffer, ImageFormat, Luma, LumaA, Rgb, RgbImage, Rgba};
 use exr::prelude::{SpecificChannels, Vec2, WritableImage, f16};
@@ -258,8 +258,7 @@ fn what_is_no_picture_or_too_large_is_refused() {
         tga[16] = 24;
         assert!(decode("a.tga", &tga).is_err());
     }
-    assert!(check_size(32_768, 32_768, 4).is_ok());
-    assert!(check_size(32_768, 32_768, 6).is_err());
-    assert!(check_size(0, 5, 3).is_err());
-    assert!(check_size(32_769, 1, 3).is_err());
+    assert!(check_sides(32_768, 32_768).is_ok());
+    assert!(check_sides(0, 5).is_err());
+    assert!(check_sides(32_769, 1).is_err());
 }
