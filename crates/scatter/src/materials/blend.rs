@@ -205,7 +205,7 @@ impl Blend {
         self.facts.medium
     }
 
-    /// See [`SurfaceKind::may_be_unseen`](super::SurfaceKind::may_be_unseen).
+    /// See [`Material::may_be_unseen`].
     pub(super) fn may_be_unseen(&self) -> bool {
         self.facts.unseen > 0
     }
@@ -215,7 +215,7 @@ impl Blend {
         self.facts.may_transmit
     }
 
-    /// See [`SurfaceKind::unseen_share`](super::SurfaceKind::unseen_share).
+    /// See [`Material::unseen_share`].
     pub(super) fn unseen_share(&self, context: &MaterialContext, uv: &impl Fn(u32) -> Vec2) -> Real {
         // All but nothing itself are seen between different indices.
         let may_be_unseen = self.facts.holds_nothing || context.interface.is_matched();

@@ -1,6 +1,6 @@
 //! `diffuse`: a Lambertian surface.
 
-use super::fields::{ALBEDO_SPECTRUM, ALBEDO_TEXTURE, BUMP_MAP, COLOUR_DEPRECATED, LATER, bump_map};
+use super::fields::{ALBEDO_SPECTRUM, ALBEDO_TEXTURE, BUMP_MAP, COLOUR_DEPRECATED, LATER};
 use super::{MaterialContext, MaterialResources, SurfaceKind};
 use crate::reflectance::Reflectance;
 use crate::scatter::{Crossing, LocalSample, Scatter};
@@ -8,7 +8,6 @@ use indigo_decl::{Block, Field, Group, Kind, Node, Presence};
 use indigo_math::warp::{INV_PI, cosine_hemisphere, cosine_hemisphere_pdf};
 use indigo_math::{Real, Vec2, Vec3};
 use indigo_spectrum::{LanePdf, SampledSpectrum, Spectrum};
-use indigo_texture::TextureId;
 
 /// The declaration of `diffuse`.
 pub static BLOCK: Block = Block::new(
@@ -42,20 +41,19 @@ pub static BLOCK: Block = Block::new(
 #[derive(Clone, Debug)]
 pub struct Diffuse {
     albedo: Reflectance,
-    bump: Option<TextureId>,
 }
 
 impl Diffuse {
     /// A surface that scatters nothing.
     pub fn black() -> Self {
-        Self { albedo: Reflectance::Spectrum(Spectrum::BLACK), bump: None }
+        Self { albedo: Reflectance::Spectrum(Spectrum::BLACK) }
     }
 
     /// From its element.
     pub fn build(node: &Node, resources: &mut dyn MaterialResources) -> Self {
         let albedo =
             Reflectance::build(node, ["albedo_texture", "albedo_spectrum"], Some("colour"), resources);
-        Self { albedo, bump: bump_map(node, resources) }
+        Self { albedo }
     }
 
     /// The model at a point.
@@ -65,11 +63,7 @@ impl Diffuse {
     }
 }
 
-impl SurfaceKind for Diffuse {
-    fn bump_map(&self) -> Option<TextureId> {
-        self.bump
-    }
-}
+impl SurfaceKind for Diffuse {}
 
 /// Constant BSDF, for directions on one side of the surface.
 #[derive(Clone, Copy, Debug)]

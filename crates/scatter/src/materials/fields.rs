@@ -1,9 +1,7 @@
 //! Fields that several materials share.
 
-use super::MaterialResources;
-use indigo_decl::{Field, Kind, Later, Node, Presence};
+use indigo_decl::{Field, Kind, Later, Presence};
 use indigo_spectrum::declare::SPECTRUM;
-use indigo_texture::TextureId;
 use indigo_texture::declare::TEXTURE;
 
 /// The reflectance of the materials that have one.
@@ -33,11 +31,6 @@ pub const BUMP_MAP: Field = Field::new(
     "An image map of heights in metres, along the normal, by which the shading normal is bent. Its gain `b` \
      is usually small, such as 0.001.",
 );
-
-/// What [`BUMP_MAP`] asks for.
-pub fn bump_map(node: &Node, resources: &mut dyn MaterialResources) -> Option<TextureId> {
-    node.node(BUMP_MAP.name).map(|map| resources.texture(map))
-}
 
 /// The medium inside.
 pub const INTERNAL_MEDIUM_NAME: Field = Field::new(

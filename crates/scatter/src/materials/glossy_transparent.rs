@@ -9,7 +9,7 @@
 //! Light that meets a second facet is lost. How much that is, by exponent, angle and index, is told in
 //! `docs/theory/rough-glass.md`, whose tables a test of this file computes anew.
 
-use super::fields::{BUMP_MAP, INTERNAL_MEDIUM_NAME, LATER, bump_map};
+use super::fields::{BUMP_MAP, INTERNAL_MEDIUM_NAME, LATER};
 use super::{MaterialContext, MaterialResources, SurfaceKind};
 use crate::fresnel::{dielectric, reflectance};
 use crate::media::MediumId;
@@ -18,7 +18,6 @@ use crate::scatter::{Crossing, LocalSample, Scatter};
 use indigo_decl::{Block, Field, Kind, Node, Presence, Range};
 use indigo_math::{Float, Real, Vec2, Vec3};
 use indigo_spectrum::{LanePdf, SampledSpectrum};
-use indigo_texture::TextureId;
 
 /// The declaration of `glossy_transparent`.
 pub static BLOCK: Block = Block::new(
@@ -50,7 +49,6 @@ pub static BLOCK: Block = Block::new(
 pub struct GlossyTransparent {
     medium: MediumId,
     facets: Microfacets,
-    bump: Option<TextureId>,
 }
 
 impl GlossyTransparent {
@@ -59,34 +57,19 @@ impl GlossyTransparent {
         Self {
             medium: resources.medium(node, INTERNAL_MEDIUM_NAME.name),
             facets: Microfacets::of_exponent(Real::from_f64(node.real("exponent"))),
-            bump: bump_map(node, resources),
         }
     }
 
-    /// The model at a point; `None` where the indices on both sides are equal, so that light passes
-    /// as if nothing were there.
+    /// The model at a point.
     #[inline]
-    pub fn leaf(
-        &self,
-        context: &MaterialContext,
-        _uv: impl Fn(u32) -> Vec2,
-    ) -> Option<GlossyTransparentLeaf> {
-        let eta = context.interface.below / context.interface.above;
-        (!context.interface.is_matched()).then_some(GlossyTransparentLeaf { facets: self.facets, eta })
+    pub fn leaf(&self, context: &MaterialContext, _uv: impl Fn(u32) -> Vec2) -> GlossyTransparentLeaf {
+        GlossyTransparentLeaf { facets: self.facets, eta: context.interface.eta() }
     }
 }
 
 impl SurfaceKind for GlossyTransparent {
-    fn bump_map(&self) -> Option<TextureId> {
-        self.bump
-    }
-
     fn internal_medium(&self) -> Option<MediumId> {
         Some(self.medium)
-    }
-
-    fn unseen_share(&self, context: &MaterialContext, _uv: &impl Fn(u32) -> Vec2) -> Real {
-        if context.interface.is_matched() { 1.0 } else { 0.0 }
     }
 }
 

@@ -10,6 +10,7 @@ pub mod oren_nayar;
 pub mod phong;
 pub mod specular;
 
+use self::fields::BUMP_MAP;
 use crate::media::{Medium, MediumId};
 use crate::scatter::{Crossing, LocalSample, Scatter};
 use indigo_decl::{Alternatives, Block, Field, Kind, Later, Node, Presence};
@@ -46,6 +47,12 @@ impl Interface {
     /// Air, or nothing, on both sides.
     pub const NONE: Self = Self { above: SampledSpectrum::ONE, below: SampledSpectrum::ONE };
 
+    /// The index below over that above.
+    #[inline]
+    pub fn eta(&self) -> SampledSpectrum {
+        self.below / self.above
+    }
+
     /// Whether the indices are equal, so that a smooth surface is not to be seen.
     #[inline]
     pub fn is_matched(&self) -> bool {
@@ -73,13 +80,8 @@ pub trait MaterialResources {
     fn sink(&mut self) -> &mut Sink;
 }
 
-/// What a material says of the surface itself, beside how it scatters. The defaults are those of most.
+/// What a kind of material says of the surface itself, beside how it scatters. The defaults are those of most.
 pub trait SurfaceKind {
-    /// The heights that bend the shading normal.
-    fn bump_map(&self) -> Option<TextureId> {
-        None
-    }
-
     /// The medium that fills the inside of the object, if the material is the interface of one. It is the
     /// same all over the surface and whatever becomes of the light that crosses it.
     fn internal_medium(&self) -> Option<MediumId> {
@@ -89,21 +91,33 @@ pub trait SurfaceKind {
     /// Makes ready for the media of the scene, of which any may lie outside: called once, when all of them are known.
     fn immerse(&mut self, _media: &[Medium]) {}
 
-    /// Whether light can ever pass as if nothing were there: there is no leaf, or the surface divides a
-    /// medium from itself.
-    fn may_be_unseen(&self) -> bool {
+    /// Whether light can come out on the other side, scattered or not, where that is another medium. (What divides a
+    /// medium from itself is not there.)
+    fn may_transmit(&self) -> bool {
         self.internal_medium().is_some()
     }
+}
 
-    /// Whether light can come out on the other side, scattered or not.
-    fn may_transmit(&self) -> bool {
-        self.may_be_unseen()
+/// A kind of material with what any may have.
+#[derive(Clone, Debug)]
+pub struct Surface<K> {
+    kind: K,
+    /// The heights that bend the shading normal.
+    bump: Option<TextureId>,
+}
+
+impl<K: SurfaceKind> Surface<K> {
+    /// From the element of the kind, which has been built from it.
+    fn new(kind: K, node: &Node, resources: &mut dyn MaterialResources) -> Self {
+        let may_have = node.block.fields.iter().any(|field| field.name == BUMP_MAP.name);
+        let map = if may_have { node.node(BUMP_MAP.name) } else { None };
+        Self { kind, bump: map.map(|map| resources.texture(map)) }
     }
 
-    /// The share of light that passes as if nothing were there: the mean over `choice` of the cases in
-    /// which there is no leaf.
-    fn unseen_share(&self, _context: &MaterialContext, _uv: &impl Fn(u32) -> Vec2) -> Real {
-        0.0
+    /// Whether light passes as if nothing were there: between equal indices a transparent interface does nothing.
+    #[inline]
+    fn is_unseen(&self, interface: &Interface) -> bool {
+        interface.is_matched() && self.kind.internal_medium().is_some() && self.kind.may_transmit()
     }
 }
 
@@ -111,7 +125,7 @@ pub trait SurfaceKind {
 ///
 /// A line `name => Material / Leaf` registers a material of the file `name.rs`: `Material` is a
 /// [`SurfaceKind`] and has `build(&Node, &mut dyn MaterialResources)` and `leaf(&MaterialContext, uv)`, which
-/// gives a leaf or, where it may pass light unseen, an option of one; `Leaf` is a [`Scatter`].
+/// is not asked where the surface is unseen; `Leaf` is a [`Scatter`].
 /// `blend` and `null_material` have no leaves, and stand beside the list.
 macro_rules! registry {
     ($($name:ident => $material:ident / $leaf:ident,)*) => {
@@ -125,7 +139,7 @@ macro_rules! registry {
             Null,
             /// Is one material or another.
             Blend(blend::Blend),
-            $(#[doc = concat!("See [`", stringify!($name), "`].")] $material($name::$material),)*
+            $(#[doc = concat!("See [`", stringify!($name), "`].")] $material(Surface<$name::$material>),)*
         }
 
         /// A scattering model as a path holds it: all numbers baked for a point and its wavelengths.
@@ -138,7 +152,8 @@ macro_rules! registry {
             /// From the element of a kind of material.
             pub fn build(node: &Node, resources: &mut dyn MaterialResources) -> Self {
                 $(if std::ptr::eq(node.block, &raw const $name::BLOCK) {
-                    return Self::$material($name::$material::build(node, resources));
+                    let kind = $name::$material::build(node, resources);
+                    return Self::$material(Surface::new(kind, node, resources));
                 })*
                 if std::ptr::eq(node.block, &raw const blend::BLOCK) {
                     return Self::Blend(blend::Blend::build(node, resources));
@@ -158,25 +173,23 @@ macro_rules! registry {
                 material
             }
 
-            /// See [`SurfaceKind::bump_map`]; a blend has none of its own.
+            /// The heights that bend the shading normal; a blend has none of its own.
             #[inline]
             pub fn bump_map(&self) -> Option<TextureId> {
                 match self {
                     Self::Null | Self::Blend(_) => None,
-                    $(Self::$material(m) => m.bump_map(),)*
+                    $(Self::$material(m) => m.bump,)*
                 }
             }
 
             /// The scattering model at a point, whose texture coordinates `uv` gives for each set;
-            /// `None` where the material does nothing to light. A blend is to be [chosen](Self::chosen) first.
+            /// `None` where light passes as if nothing were there. A blend is to be [chosen](Self::chosen) first.
             #[inline]
             pub fn leaf(&self, context: &MaterialContext, uv: impl Fn(u32) -> Vec2) -> Option<Leaf> {
                 match self {
                     Self::Null | Self::Blend(_) => None,
-                    $(Self::$material(m) => {
-                        let leaf: Option<$name::$leaf> = m.leaf(context, uv).into();
-                        leaf.map(Leaf::$material)
-                    })*
+                    $(Self::$material(m) if m.is_unseen(&context.interface) => None,)*
+                    $(Self::$material(m) => Some(Leaf::$material(m.kind.leaf(context, uv))),)*
                 }
             }
 
@@ -186,7 +199,7 @@ macro_rules! registry {
                 match self {
                     Self::Null => None,
                     Self::Blend(blend) => blend.internal_medium(),
-                    $(Self::$material(m) => m.internal_medium(),)*
+                    $(Self::$material(m) => m.kind.internal_medium(),)*
                 }
             }
 
@@ -194,16 +207,17 @@ macro_rules! registry {
             pub fn immerse(&mut self, media: &[Medium]) {
                 match self {
                     Self::Null | Self::Blend(_) => {}
-                    $(Self::$material(m) => m.immerse(media),)*
+                    $(Self::$material(m) => m.kind.immerse(media),)*
                 }
             }
 
-            /// See [`SurfaceKind::may_be_unseen`].
+            /// Whether light can ever pass as if nothing were there: there is no leaf, or the surface divides a
+            /// medium from itself.
             pub fn may_be_unseen(&self) -> bool {
                 match self {
                     Self::Null => true,
                     Self::Blend(blend) => blend.may_be_unseen(),
-                    $(Self::$material(m) => m.may_be_unseen(),)*
+                    $(Self::$material(m) => m.kind.internal_medium().is_some(),)*
                 }
             }
 
@@ -212,17 +226,18 @@ macro_rules! registry {
                 match self {
                     Self::Null => true,
                     Self::Blend(blend) => blend.may_transmit(),
-                    $(Self::$material(m) => m.may_transmit(),)*
+                    $(Self::$material(m) => m.kind.may_transmit(),)*
                 }
             }
 
-            /// See [`SurfaceKind::unseen_share`].
+            /// The share of light that passes as if nothing were there: the mean over `choice` of the cases in
+            /// which there is no leaf.
             #[inline]
             pub fn unseen_share(&self, context: &MaterialContext, uv: &impl Fn(u32) -> Vec2) -> Real {
                 match self {
                     Self::Null => 1.0,
                     Self::Blend(blend) => blend.unseen_share(context, uv),
-                    $(Self::$material(m) => m.unseen_share(context, uv),)*
+                    $(Self::$material(m) => if m.is_unseen(&context.interface) { 1.0 } else { 0.0 },)*
                 }
             }
         }
@@ -285,7 +300,7 @@ registry! {
 impl Material {
     /// A surface that scatters nothing.
     pub fn black() -> Self {
-        Self::Diffuse(diffuse::Diffuse::black())
+        Self::Diffuse(Surface { kind: diffuse::Diffuse::black(), bump: None })
     }
 
     /// Whether light passes as if the surface were not there.

@@ -17,7 +17,7 @@
 //! | 1, 0.8 | 0.099 | 0.185 | 0.247 | 0.327 |
 //! | 1, 1 | 0.089 | 0.220 | 0.299 | 0.242 |
 
-use super::fields::{ALBEDO_SPECTRUM, ALBEDO_TEXTURE, BUMP_MAP, LATER, bump_map};
+use super::fields::{ALBEDO_SPECTRUM, ALBEDO_TEXTURE, BUMP_MAP, LATER};
 use super::{MaterialContext, MaterialResources, SurfaceKind};
 use crate::directional_albedo::{AlbedoRow, integral};
 use crate::reflectance::Reflectance;
@@ -27,7 +27,6 @@ use indigo_math::elementary::{acos, sin_cos_turns};
 use indigo_math::warp::{INV_PI, cosine_hemisphere, cosine_hemisphere_pdf, uniform_hemisphere};
 use indigo_math::{Float, Real, Vec2, Vec3};
 use indigo_spectrum::{LanePdf, SampledSpectrum};
-use indigo_texture::TextureId;
 
 /// The declaration of `oren_nayar`.
 pub static BLOCK: Block = Block::new(
@@ -67,7 +66,6 @@ pub struct OrenNayar {
     albedo: Reflectance,
     facets: Facets,
     row: AlbedoRow,
-    bump: Option<TextureId>,
 }
 
 impl OrenNayar {
@@ -75,7 +73,7 @@ impl OrenNayar {
     pub fn build(node: &Node, resources: &mut dyn MaterialResources) -> Self {
         let albedo = Reflectance::build(node, ["albedo_texture", "albedo_spectrum"], None, resources);
         let (facets, row) = Facets::of_deviation(node.real("sigma"));
-        Self { albedo, facets, row, bump: bump_map(node, resources) }
+        Self { albedo, facets, row }
     }
 
     /// The model at a point.
@@ -89,11 +87,7 @@ impl OrenNayar {
     }
 }
 
-impl SurfaceKind for OrenNayar {
-    fn bump_map(&self) -> Option<TextureId> {
-        self.bump
-    }
-}
+impl SurfaceKind for OrenNayar {}
 
 /// The scale of the rows: nodes dense enough at grazing angles, and still so at normal ones, for 1e-4.
 const ROW_SCALE: f64 = 4.0;

@@ -17,7 +17,7 @@
 //!
 //! `docs/theory/gloss.md` has a table of E.
 
-use super::fields::{ALBEDO_TEXTURE, BUMP_MAP, COLOUR_DEPRECATED, LATER, bump_map};
+use super::fields::{ALBEDO_TEXTURE, BUMP_MAP, COLOUR_DEPRECATED, LATER};
 use super::{MaterialContext, MaterialResources, SurfaceKind};
 use crate::directional_albedo::{AlbedoRow, LaneRows};
 use crate::fresnel::{conductor, dielectric, diffuse_average, schlick};
@@ -119,7 +119,6 @@ pub struct Phong {
     gloss: Gloss,
     /// Albedo of the facets, of the coat or of white facets: a row, or one for each width of a map of exponents.
     rows: ByIndex<Box<[AlbedoRow]>>,
-    bump: Option<TextureId>,
 }
 
 /// What the facets are of.
@@ -165,7 +164,7 @@ impl Phong {
             Kind::Coat { eta: Real::from_f64(index_of_coat(node, resources.sink())), ground }
         };
         let gloss = Gloss::build(node, resources);
-        Self { rows: kind.rows(gloss, &[1.0]), kind, gloss, bump: bump_map(node, resources) }
+        Self { rows: kind.rows(gloss, &[1.0]), kind, gloss }
     }
 
     /// The model at a point.
@@ -212,10 +211,6 @@ impl Phong {
 }
 
 impl SurfaceKind for Phong {
-    fn bump_map(&self) -> Option<TextureId> {
-        self.bump
-    }
-
     fn immerse(&mut self, media: &[Medium]) {
         let indices = immersion::indices(media);
         // Air alone is what it was built for.

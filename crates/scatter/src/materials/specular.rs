@@ -4,7 +4,7 @@
 //! of its own at each. A refracted ray stands for the hero and for the lanes that have its index: the others
 //! would have gone another way, so their density is 0 (Wilkie et al. 2014, section 4).
 
-use super::fields::{BUMP_MAP, INTERNAL_MEDIUM_NAME, LATER, bump_map};
+use super::fields::{BUMP_MAP, INTERNAL_MEDIUM_NAME, LATER};
 use super::{MaterialContext, MaterialResources, SurfaceKind};
 use crate::fresnel::dielectric;
 use crate::media::MediumId;
@@ -12,7 +12,6 @@ use crate::scatter::{Crossing, Delta, LocalSample, Scatter};
 use indigo_decl::{Block, Field, Kind, Node, Presence};
 use indigo_math::{Real, Vec2, Vec3};
 use indigo_spectrum::{LanePdf, SampledSpectrum};
-use indigo_texture::TextureId;
 
 /// The declaration of `specular`.
 pub static BLOCK: Block = Block::new(
@@ -43,7 +42,6 @@ pub static BLOCK: Block = Block::new(
 pub struct Specular {
     medium: MediumId,
     is_transparent: bool,
-    bump: Option<TextureId>,
 }
 
 impl Specular {
@@ -52,35 +50,23 @@ impl Specular {
         Self {
             medium: resources.medium(node, INTERNAL_MEDIUM_NAME.name),
             is_transparent: node.bool("transparent"),
-            bump: bump_map(node, resources),
         }
     }
 
-    /// The model at a point; `None` where the indices on both sides are equal, so that light passes
-    /// as if nothing were there.
+    /// The model at a point.
     #[inline]
-    pub fn leaf(&self, context: &MaterialContext, _uv: impl Fn(u32) -> Vec2) -> Option<SpecularLeaf> {
-        let eta = context.interface.below / context.interface.above;
-        let is_unseen = self.is_transparent && context.interface.is_matched();
-        (!is_unseen).then_some(SpecularLeaf { eta, is_transparent: self.is_transparent })
+    pub fn leaf(&self, context: &MaterialContext, _uv: impl Fn(u32) -> Vec2) -> SpecularLeaf {
+        SpecularLeaf { eta: context.interface.eta(), is_transparent: self.is_transparent }
     }
 }
 
 impl SurfaceKind for Specular {
-    fn bump_map(&self) -> Option<TextureId> {
-        self.bump
-    }
-
     fn internal_medium(&self) -> Option<MediumId> {
         Some(self.medium)
     }
 
     fn may_transmit(&self) -> bool {
         self.is_transparent
-    }
-
-    fn unseen_share(&self, context: &MaterialContext, _uv: &impl Fn(u32) -> Vec2) -> Real {
-        if self.is_transparent && context.interface.is_matched() { 1.0 } else { 0.0 }
     }
 }
 
