@@ -206,7 +206,7 @@ pub fn all_examples() -> Vec<Example> {
 }
 
 /// The model of an element, from both sides where they differ; nothing where it has no leaf.
-fn example(text: &'static str) -> Vec<Example> {
+pub fn example(text: &'static str) -> Vec<Example> {
     let mut sink = Sink::new();
     let file = format!("<material><name>m</name>{text}</material>");
     let root = read_document("m", &Text(file), &mut SourceMap::default(), &mut sink, &Limits::default());
