@@ -5,6 +5,7 @@ use indigo_film::{FilmRecord, FilmSize, FilmState, LayerKind, Run, igi};
 use indigo_formats::image::Pixels;
 use indigo_formats::{MeshData, MeshFormat, float_map, ies, image, nk};
 use indigo_fuzz::fuzz;
+use indigo_igs::pack::{Pack, PackLimits, PackWriter};
 use indigo_light::Profile;
 use indigo_scene::{LoadOptions, Loaded, load};
 
@@ -218,4 +219,25 @@ fn seeds_are_sound() {
     for seed in seeds("picture") {
         assert_eq!(image::decode("picture.tga", &seed).err(), None);
     }
+}
+
+/// A packed scene: its list of members may promise anything, and so may each of them.
+#[test]
+fn pack() {
+    let mut out = std::io::Cursor::new(vec![]);
+    let mut pack = PackWriter::new(&mut out);
+    pack.add("wood.png", b"stored as it is").unwrap();
+    pack.add("au.nk", &[b'7'; 300]).unwrap();
+    pack.finish("room.igs", b"<scene><include><pathname>PACKED_1_au.nk</pathname></include></scene>")
+        .unwrap();
+    let limits = PackLimits { always_allowed: 1 << 20, ..PackLimits::default() };
+    fuzz(&[out.into_inner()], |bytes| {
+        let Ok(pack) = Pack::open(bytes.into(), &limits) else { return };
+        // Some of the names are damaged, and then there may be no scene or two.
+        drop(pack.main());
+        for (name, size) in pack.members() {
+            assert!(!name.contains("..") || !name.contains('/'), "{name}");
+            assert!(pack.read(name).map_or(0, |content| content.len() as u64) <= size);
+        }
+    });
 }

@@ -1,28 +1,70 @@
-//! What the user sees: messages, and a progress line that renews itself on a terminal.
+//! What the user sees: messages, and a progress line that renews itself on a terminal; and the logs that keep it.
 
+use crate::paths::utc;
+use indigo_diag::{Diagnostic, Severity, SourceMap, Style, quoted, to_json, to_text};
 use indigo_render::Progress;
 use std::fs::{File, OpenOptions};
 use std::io::{IsTerminal, Write};
 use std::path::Path;
-use std::time::Duration;
+use std::time::{Duration, SystemTime};
 
-/// Standard error, and a log file if one is wanted.
+/// How much is said.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Verbosity {
+    /// Warnings and errors.
+    Quiet,
+    /// Also what is done, and how far it is.
+    #[default]
+    Usual,
+    /// Also what takes time.
+    Verbose,
+}
+
+/// What a message is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Level {
+    Error,
+    Warning,
+    Info,
+    Detail,
+}
+
+impl Level {
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Error => "error",
+            Self::Warning => "warning",
+            Self::Info => "info",
+            Self::Detail => "detail",
+        }
+    }
+
+    const fn least(self) -> Verbosity {
+        match self {
+            Self::Error | Self::Warning => Verbosity::Quiet,
+            Self::Info => Verbosity::Usual,
+            Self::Detail => Verbosity::Verbose,
+        }
+    }
+}
+
+/// Standard error, and log files if they are wanted.
 pub struct Console {
+    verbosity: Verbosity,
+    /// The log in plain text.
     log: Option<File>,
+    /// The log as a line of JSON for each message.
+    json_log: Option<File>,
     terminal: bool,
     /// Length of the progress line on the terminal, to be wiped before anything else is written.
     line: usize,
 }
 
 impl Console {
-    /// A console without a log.
-    pub fn new() -> Self {
-        Self { log: None, terminal: std::io::stderr().is_terminal(), line: 0 }
-    }
-
-    /// Whether messages may be coloured.
-    pub fn is_coloured(&self) -> bool {
-        self.terminal && std::env::var_os("NO_COLOR").is_none()
+    /// A console without logs.
+    pub fn new(verbosity: Verbosity) -> Self {
+        let terminal = std::io::stderr().is_terminal();
+        Self { verbosity, log: None, json_log: None, terminal, line: 0 }
     }
 
     /// Whether a progress line can renew itself.
@@ -32,19 +74,88 @@ impl Console {
 
     /// From now on writes everything to a file, too; a file that cannot be written costs a warning.
     pub fn log_to(&mut self, path: &Path) {
+        self.log = self.open(path);
+    }
+
+    /// From now on writes everything to a file as a line of JSON each, too.
+    ///
+    /// # Errors
+    /// What the system says: whoever asks for such a log wants to read it.
+    pub fn log_json_to(&mut self, path: &Path) -> std::io::Result<()> {
+        self.json_log = Some(OpenOptions::new().create(true).append(true).open(path)?);
+        Ok(())
+    }
+
+    fn open(&mut self, path: &Path) -> Option<File> {
         match OpenOptions::new().create(true).append(true).open(path) {
-            Ok(file) => self.log = Some(file),
-            Err(error) => self.say(&format!("warning: no log is kept: {}: {error}", path.display())),
+            Ok(file) => Some(file),
+            Err(error) => {
+                self.warn(&format!("no log is kept: {}: {error}", path.display()));
+                None
+            }
         }
     }
 
-    /// Writes a message of one or more lines.
+    /// Says what went wrong.
+    pub fn error(&mut self, message: &str) {
+        self.write(Level::Error, &format!("error: {message}"), message, "");
+    }
+
+    /// Says what the user should know.
+    pub fn warn(&mut self, message: &str) {
+        self.write(Level::Warning, &format!("warning: {message}"), message, "");
+    }
+
+    /// Says what is done.
     pub fn say(&mut self, message: &str) {
-        self.wipe();
-        // Nobody is left to be told if standard error or the log fails.
-        drop(writeln!(std::io::stderr(), "{message}"));
-        if let Some(log) = &mut self.log {
-            drop(writeln!(log, "{}", without_escapes(message)));
+        self.write(Level::Info, message, message, "");
+    }
+
+    /// Says what takes time, to those who want to know.
+    pub fn detail(&mut self, message: &str) {
+        self.write(Level::Detail, message, message, "");
+    }
+
+    /// Says what was found in a file.
+    pub fn diagnose(&mut self, diagnostic: &Diagnostic, sources: &SourceMap) {
+        let is_coloured = self.terminal && std::env::var_os("NO_COLOR").is_none();
+        let style = if is_coloured { Style::Colour } else { Style::Plain };
+        let level = match diagnostic.severity {
+            Severity::Error => Level::Error,
+            Severity::Warning => Level::Warning,
+            Severity::Note => Level::Info,
+        };
+        let fields = match self.json_log {
+            Some(_) => format!(",\"diagnostic\":{}", to_json(diagnostic, sources)),
+            None => String::new(),
+        };
+        let text = to_text(diagnostic, sources, style);
+        self.write(level, text.trim_end(), &diagnostic.message, &fields);
+    }
+
+    /// Writes a message of one or more lines; the logs have what the console passes over. `fields` are more of a line
+    /// of JSON, each behind a comma.
+    fn write(&mut self, level: Level, text: &str, message: &str, fields: &str) {
+        // Nobody is left to be told if standard error or a log fails.
+        if level.least() <= self.verbosity {
+            self.wipe();
+            drop(writeln!(std::io::stderr(), "{text}"));
+        }
+        if let Some(log) = self.log.as_mut().filter(|_| level.least() <= self.verbosity.max(Verbosity::Usual))
+        {
+            drop(writeln!(log, "{}", without_escapes(text)));
+        }
+        self.write_json(level.name(), message, fields);
+    }
+
+    fn write_json(&mut self, level: &str, message: &str, fields: &str) {
+        if let Some(log) = &mut self.json_log {
+            let time = utc(SystemTime::now());
+            let message = quoted(message);
+            drop(writeln!(
+                log,
+                "{{\"time\":\"{time}\",\"level\":\"{level}\",\"message\":{message}{fields}}}"
+            ));
         }
     }
 
@@ -54,22 +165,54 @@ impl Console {
         match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
             Ok(()) => true,
             Err(error) => {
-                self.say(&format!("error: cannot write to standard output: {error}"));
+                self.error(&format!("cannot write to standard output: {error}"));
                 false
             }
         }
     }
 
     /// Renews the progress line on a terminal; a line of its own elsewhere.
-    pub fn progress(&mut self, text: &str) {
-        if !self.terminal {
-            self.say(text);
-            return;
+    pub fn progress(&mut self, progress: &Progress) {
+        let text = progress_text(progress);
+        if self.verbosity == Verbosity::Quiet {
+        } else if self.terminal {
+            let padding = " ".repeat(self.line.saturating_sub(text.chars().count()));
+            self.line = text.chars().count();
+            let mut out = std::io::stderr();
+            drop(write!(out, "\r{text}{padding}").and_then(|()| out.flush()));
+        } else {
+            drop(writeln!(std::io::stderr(), "{text}"));
         }
-        let padding = " ".repeat(self.line.saturating_sub(text.chars().count()));
-        self.line = text.chars().count();
-        let mut out = std::io::stderr();
-        drop(write!(out, "\r{text}{padding}").and_then(|()| out.flush()));
+        self.log_progress(progress, &text);
+    }
+
+    /// The progress at the end of a render, which stays on the terminal.
+    pub fn last_progress(&mut self, progress: &Progress) {
+        let text = progress_text(progress);
+        self.wipe();
+        if self.verbosity > Verbosity::Quiet {
+            drop(writeln!(std::io::stderr(), "{text}"));
+        }
+        if let (Some(log), true) = (&mut self.log, self.terminal) {
+            drop(writeln!(log, "{text}"));
+        }
+        self.log_progress(progress, &text);
+    }
+
+    /// The plain log has a line where there is no terminal, on which the same line is renewed several times a second.
+    fn log_progress(&mut self, p: &Progress, text: &str) {
+        if let (Some(log), false) = (&mut self.log, self.terminal) {
+            drop(writeln!(log, "{text}"));
+        }
+        let error = p.relative_error.map(|e| format!(",\"relative_error\":{e}")).unwrap_or_default();
+        let fields = format!(
+            ",\"samples\":{},\"samples_per_pixel\":{},\"samples_per_second\":{},\"elapsed_s\":{}{error}",
+            p.samples,
+            p.samples_per_pixel,
+            p.samples_per_second,
+            p.elapsed.as_secs_f64(),
+        );
+        self.write_json("progress", text, &fields);
     }
 
     fn wipe(&mut self) {
@@ -100,7 +243,7 @@ fn without_escapes(text: &str) -> String {
 }
 
 /// A progress line: " 12.5%   8.0 spp   1.23 M samples/s   0:12 elapsed   0:44 left".
-pub fn progress_text(p: &Progress) -> String {
+fn progress_text(p: &Progress) -> String {
     let mut parts = vec![];
     if let Some(fraction) = p.fraction {
         parts.push(format!("{:5.1}%", fraction * 100.0));
@@ -165,6 +308,7 @@ mod tests {
             left: Some(Duration::from_secs(44)),
             fraction: Some(0.125),
             relative_error: None,
+            rays: 0,
         };
         assert_eq!(progress_text(&p), " 12.5%   8.0 spp   1.23 M samples/s   0:12 elapsed   0:44 left");
         let rough = Progress { relative_error: Some(0.0312), ..p };

@@ -3,7 +3,7 @@
 use crate::console::Console;
 use crate::flags::Arguments;
 use crate::render::{denoiser, logical_cores, overwrites, program, say_saved};
-use crate::{BAD_INPUT, FAILED, RENDERED, json_report, paths, report, with_load_options};
+use crate::{BAD_INPUT, FAILED, RENDERED, json_report, paths, refuse, report, with_load_options};
 use indigo_render::output::{OutputPaths, SaveJob, write_film};
 use indigo_render::pool::with_jobs;
 use indigo_render::saved::{FilmFileError, merge_films, read_film};
@@ -20,7 +20,7 @@ pub fn merge(arguments: &Arguments, console: &mut Console) -> u8 {
     // The command line was checked for two films and an output.
     let (Some(sum), Some(output)) = (sum, &arguments.output) else { return BAD_INPUT };
     let Some(record) = &sum.record else {
-        console.say(&format!("error: {}: a film of another program cannot be added to", arguments.files[0]));
+        console.error(&format!("{}: a film of another program cannot be added to", arguments.files[0]));
         return BAD_INPUT;
     };
     match with_jobs(logical_cores(), || write_film(Path::new(output), &sum.film, record)) {
@@ -30,7 +30,7 @@ pub fn merge(arguments: &Arguments, console: &mut Console) -> u8 {
             RENDERED
         }
         Err(error) => {
-            console.say(&format!("error: {error}"));
+            console.error(&error.to_string());
             FAILED
         }
     }
@@ -43,12 +43,15 @@ pub fn tone_map(arguments: &Arguments, console: &mut Console) -> u8 {
     let picture = match paths::picture_named(picture) {
         Ok(picture) => picture,
         Err(reason) => {
-            console.say(&format!("error: {picture}: {reason}"));
+            console.error(&format!("{picture}: {reason}"));
             return BAD_INPUT;
         }
     };
-    let (loaded, read): (LoadedDevelopment, _) =
-        with_load_options(scene, arguments, |options| load_development(scene, options));
+    let loaded = with_load_options(scene, arguments, |options| load_development(scene, options));
+    let (loaded, read): (LoadedDevelopment, _) = match loaded {
+        Ok(loaded) => loaded,
+        Err(message) => return refuse(&message, console),
+    };
     if !arguments.json {
         report(scene, &loaded.sink, &loaded.sources, false, console);
     } else if !console.answer(&json_report(scene, &loaded.sink, &loaded.sources)) {
@@ -60,8 +63,8 @@ pub fn tone_map(arguments: &Arguments, console: &mut Console) -> u8 {
         Err(error) => return fail(&error, console),
     };
     if saved.film.size != development.size {
-        console.say(&format!(
-            "warning: the film is {}, the scene asks for {}: the picture has the film's size",
+        console.warn(&format!(
+            "the film is {}, the scene asks for {}: the picture has the film's size",
             saved.film.size, development.size
         ));
     }
@@ -71,15 +74,15 @@ pub fn tone_map(arguments: &Arguments, console: &mut Console) -> u8 {
     if is_mask != development.picture.foreground_alpha {
         let (holds, asked) =
             if is_mask { ("what hides the background, and no light", "false") } else { ("light", "true") };
-        console.say(&format!(
-            "error: the film {film} holds {holds}, but in the scene {FOREGROUND_ALPHA} is {asked}: a film is developed \
+        console.error(&format!(
+            "the film {film} holds {holds}, but in the scene {FOREGROUND_ALPHA} is {asked}: a film is developed \
              with this setting as it was rendered"
         ));
         return BAD_INPUT;
     }
     if development.picture.diffraction.is_some() && is_true(DIFFRACTION_OF_RAYS) {
-        console.say(
-            "warning: light is diffracted twice: when the film was rendered, by its rays, and now by the filter; set \
+        console.warn(
+            "light is diffracted twice: when the film was rendered, by its rays, and now by the filter; set \
              post_process_diffraction to false, as it was then",
         );
     }
@@ -101,7 +104,7 @@ pub fn tone_map(arguments: &Arguments, console: &mut Console) -> u8 {
         denoiser,
     };
     if let Some(error) = overwrites(job.files(), &read) {
-        console.say(&error);
+        console.error(&error);
         return BAD_INPUT;
     }
     if say_saved(&job.save(&saved), console) { RENDERED } else { FAILED }
@@ -109,6 +112,6 @@ pub fn tone_map(arguments: &Arguments, console: &mut Console) -> u8 {
 
 /// Says what is wrong with a film; the exit status.
 pub fn fail(error: &FilmFileError, console: &mut Console) -> u8 {
-    console.say(&format!("error: {error}"));
+    console.error(&error.to_string());
     if matches!(error, FilmFileError::Mismatch { .. }) { BAD_INPUT } else { FAILED }
 }

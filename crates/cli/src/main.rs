@@ -4,12 +4,15 @@ mod console;
 mod cpu;
 mod films;
 mod flags;
+mod packs;
 mod paths;
+mod ptest;
 mod render;
 
-use console::Console;
+use console::{Console, Verbosity};
 use flags::Arguments;
-use indigo_diag::{Diagnostic, Severity, Sink, SourceMap, Style, summary_to_json, to_json, to_text};
+use indigo_decl::Resolver;
+use indigo_diag::{Diagnostic, Severity, Sink, SourceMap, summary_to_json, to_json};
 use indigo_igs::Limits;
 use indigo_render::disk::{DiskResolver, DiskTreeStore};
 use indigo_render::output::write_strategies;
@@ -17,6 +20,7 @@ use indigo_render::pool::with_jobs;
 use indigo_scene::{LoadOptions, Loaded, Scene, load};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::time::Instant;
 
 /// Name and version, in the form that programs which call this one look for.
 pub const VERSION: &str = concat!("Indigo Renderer v", env!("CARGO_PKG_VERSION"));
@@ -33,20 +37,29 @@ fn main() -> ExitCode {
         eprintln!("{message}");
         return ExitCode::from(FAILED);
     }
-    let mut console = Console::new();
     let arguments = match flags::parse(std::env::args_os().skip(1)) {
         Ok(arguments) => arguments,
-        Err(message) => {
-            console.say(&format!("error: {message}"));
-            return ExitCode::from(BAD_INPUT);
-        }
+        Err(message) => return ExitCode::from(refuse(&message, &mut Console::new(Verbosity::Usual))),
     };
+    let mut console = Console::new(arguments.verbosity);
+    if let Some(log) = &arguments.json_log
+        && let Err(error) = console.log_json_to(Path::new(log))
+    {
+        console.error(&format!("no log can be kept: {log}: {error}"));
+        return ExitCode::from(FAILED);
+    }
     ExitCode::from(run(&arguments, &mut console))
 }
 
 fn run(arguments: &Arguments, console: &mut Console) -> u8 {
     if arguments.help {
         return answer(&flags::help(), console);
+    }
+    if arguments.man {
+        return answer(&flags::man(), console);
+    }
+    if let Some(shell) = arguments.completions.as_deref().and_then(flags::completions) {
+        return answer(&shell, console);
     }
     if arguments.version {
         return answer(&format!("{VERSION}\n"), console);
@@ -60,19 +73,33 @@ fn run(arguments: &Arguments, console: &mut Console) -> u8 {
     if arguments.tone_map {
         return films::tone_map(arguments, console);
     }
+    if arguments.pack {
+        return packs::pack(arguments, console);
+    }
+    if arguments.unpack {
+        return packs::unpack(arguments, console);
+    }
     let Some(scene) = arguments.files.first() else {
-        console.say("error: no scene is given: indigo_console SCENE.igs [options]; --help lists all options");
+        console.error("no scene is given: indigo_console SCENE.igs [options]; --help lists all options");
         return BAD_INPUT;
     };
+    if arguments.performance_test {
+        return ptest::run(scene, arguments, console);
+    }
     let renders = !arguments.check && !arguments.print_settings;
     let named = match arguments.output.as_deref().filter(|_| renders).map(paths::picture_named).transpose() {
         Ok(named) => named,
         Err(reason) => {
-            console.say(&format!("error: -o {}: {reason}", arguments.output.as_deref().unwrap_or_default()));
+            console.error(&format!("-o {}: {reason}", arguments.output.as_deref().unwrap_or_default()));
             return BAD_INPUT;
         }
     };
-    let (loaded, read) = load_scene(scene, arguments);
+    let start = Instant::now();
+    let (loaded, read) = match load_scene(scene, arguments) {
+        Ok(loaded) => loaded,
+        Err(message) => return refuse(&message, console),
+    };
+    let loading = start.elapsed();
     if let Some(settings) = &loaded.settings
         && settings.bool("logging")
         && renders
@@ -86,6 +113,10 @@ fn run(arguments: &Arguments, console: &mut Console) -> u8 {
     } else {
         report(scene, &loaded.sink, &loaded.sources, arguments.check, console);
     }
+    for file in &read {
+        console.detail(&format!("Read {}", file.display()));
+    }
+    console.detail(&format!("Loaded in {:.2} s", loading.as_secs_f64()));
     if arguments.print_settings && answer(&settings_listing(&loaded), console) != RENDERED {
         return FAILED;
     }
@@ -114,7 +145,7 @@ fn show_strategies(
             RENDERED
         }
         Err(error) => {
-            console.say(&format!("error: {error}"));
+            console.error(&error.to_string());
             FAILED
         }
     }
@@ -125,29 +156,72 @@ fn answer(text: &str, console: &mut Console) -> u8 {
     if console.answer(text) { RENDERED } else { FAILED }
 }
 
+/// Says what is wrong with what was given; the exit status.
+fn refuse(message: &str, console: &mut Console) -> u8 {
+    console.error(message);
+    BAD_INPUT
+}
+
 /// A scene, and the files that it was read from.
-fn load_scene(path: &str, arguments: &Arguments) -> (Loaded, Vec<PathBuf>) {
+fn load_scene(path: &str, arguments: &Arguments) -> Result<(Loaded, Vec<PathBuf>), String> {
     with_load_options(path, arguments, |options| with_jobs(render::logical_cores(), || load(path, options)))
 }
 
 /// Calls `load` with what the command line and this machine add to a scene; what it gives, and the files that it read.
+///
+/// # Errors
+/// Why a packed scene is not read.
 fn with_load_options<T>(
     scene: &str,
     arguments: &Arguments,
     load: impl FnOnce(&LoadOptions) -> T,
-) -> (T, Vec<PathBuf>) {
-    let resolver = DiskResolver::new(paths::resource_directories()).for_scene(scene);
+) -> Result<(T, Vec<PathBuf>), String> {
     let trees = DiskTreeStore::new(paths::tree_cache());
+    with_resolver(scene, |resolver, inifile| {
+        load(&LoadOptions {
+            resolver,
+            trees: &trees,
+            inifile,
+            overrides: &arguments.settings,
+            limits: Limits::default(),
+            check_only: arguments.check || arguments.print_settings,
+        })
+    })
+}
+
+/// Calls `load` with where the files of a scene come from, and the path of the settings file; what it gives, and the
+/// files that were read.
+///
+/// # Errors
+/// Why a packed scene is not read.
+fn with_resolver<T>(
+    scene: &str,
+    load: impl FnOnce(&dyn Resolver, Option<&str>) -> T,
+) -> Result<(T, Vec<PathBuf>), String> {
+    let disk = DiskResolver::new(paths::resource_directories()).for_scene(scene);
+    let resources = DiskResolver::only(paths::resource_directories());
     let inifile = paths::inifile();
-    let loaded = load(&LoadOptions {
-        resolver: &resolver,
-        trees: &trees,
-        inifile: inifile.as_deref(),
-        overrides: &arguments.settings,
-        limits: Limits::default(),
-        check_only: arguments.check || arguments.print_settings,
-    });
-    (loaded, resolver.files())
+    let loaded = if packs::is_pack(scene) {
+        load(&packs::open(scene, &disk, &resources)?, inifile.as_deref())
+    } else {
+        load(&disk, inifile.as_deref())
+    };
+    Ok((loaded, disk.files()))
+}
+
+/// Says what was found in a scene, as text or JSON.
+///
+/// # Errors
+/// The exit status, where it could not be said or the scene cannot be rendered.
+fn found_errors(path: &str, loaded: &Loaded, arguments: &Arguments, console: &mut Console) -> Result<(), u8> {
+    report(path, &loaded.sink, &loaded.sources, false, console);
+    if arguments.json
+        && loaded.sink.has_errors()
+        && !console.answer(&json_report(path, &loaded.sink, &loaded.sources))
+    {
+        return Err(FAILED);
+    }
+    if loaded.sink.has_errors() { Err(BAD_INPUT) } else { Ok(()) }
 }
 
 /// Everything that was found in the scene, errors last so that they are seen.
@@ -158,9 +232,8 @@ fn found(sink: &Sink) -> Vec<&Diagnostic> {
 }
 
 fn report(scene: &str, sink: &Sink, sources: &SourceMap, is_check: bool, console: &mut Console) {
-    let style = if console.is_coloured() { Style::Colour } else { Style::Plain };
     for diagnostic in found(sink) {
-        console.say(to_text(diagnostic, sources, style).trim_end());
+        console.diagnose(diagnostic, sources);
     }
     if sink.dropped() > 0 {
         console.say(&format!("... and {} more", sink.dropped()));
@@ -201,7 +274,7 @@ fn dump_metadata(path: &str, console: &mut Console) -> u8 {
             answer(&lines.concat(), console)
         }
         Err(error) => {
-            console.say(&format!("error: {path}: {error}"));
+            console.error(&format!("{path}: {error}"));
             FAILED
         }
     }

@@ -126,13 +126,13 @@ pub fn reserve_picture(scene: &str, now: SystemTime) -> std::io::Result<Reserved
 fn picture_of(scene: &str, now: SystemTime, number: u32) -> PathBuf {
     let stem = Path::new(scene).file_stem().map_or_else(|| "scene".into(), |s| s.to_string_lossy());
     let number = if number > 1 { format!("-{number}") } else { String::new() };
-    Path::new("renders").join(format!("im_{}_{stem}{number}.png", utc(now)))
+    Path::new("renders").join(format!("im_{}_{stem}{number}.png", utc(now).replace(['-', ':'], "")))
 }
 
-/// A moment as 20080325T142301Z.
-fn utc(now: SystemTime) -> String {
+/// A moment as 2008-03-25T14:23:01Z (ISO 8601).
+pub fn utc(now: SystemTime) -> String {
     let Moment { date: [year, month, day], time: [hour, minute, second] } = Moment::of(now);
-    format!("{year:04}{month:02}{day:02}T{hour:02}{minute:02}{second:02}Z")
+    format!("{year:04}-{month:02}-{day:02}T{hour:02}:{minute:02}:{second:02}Z")
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Rendering a scene until it is done, saving on the way.
 
-use crate::console::{Console, clock, progress_text, scaled};
+use crate::console::{Console, clock, scaled};
 use crate::flags::Arguments;
 use crate::{BAD_INPUT, FAILED, RENDERED, VERSION, count, films, paths};
 use indigo_film::SavedFilm;
@@ -54,7 +54,7 @@ pub fn render(
     let picture = match Picture::new(named, &scene, arguments, console) {
         Ok(picture) => picture,
         Err(error) => {
-            console.say(&format!("error: there can be no picture in renders: {error}"));
+            console.error(&format!("there can be no picture in renders: {error}"));
             return FAILED;
         }
     };
@@ -78,7 +78,7 @@ pub fn render(
     let preview =
         scene.output.aperture_preview.then(|| picture.path().with_file_name(paths::APERTURE_PREVIEW));
     if let Some(error) = overwrites(job.files().chain(preview.clone()), read) {
-        console.say(&error);
+        console.error(&error);
         return BAD_INPUT;
     }
     if let Some(path) = preview {
@@ -86,7 +86,7 @@ pub fn render(
     }
     // Now rather than after hours of rendering.
     if let Err(error) = job.check_writable() {
-        console.say(&format!("error: {error}"));
+        console.error(&error.to_string());
         return FAILED;
     }
     catch_interrupts(console);
@@ -111,7 +111,7 @@ pub fn overwrites(mut written: impl Iterator<Item = PathBuf>, read: &[PathBuf]) 
     };
     written.find(is_read).map(|file| {
         format!(
-            "error: the scene reads {}, which would be overwritten: give the picture another name, or that file",
+            "the scene reads {}, which would be overwritten: give the picture another name, or that file",
             file.display()
         )
     })
@@ -119,7 +119,7 @@ pub fn overwrites(mut written: impl Iterator<Item = PathBuf>, read: &[PathBuf]) 
 
 /// Says why there is no session; the exit status.
 fn fail(error: &SessionError, console: &mut Console) -> u8 {
-    console.say(&format!("error: {error}"));
+    console.error(&error.to_string());
     if matches!(error, SessionError::Mismatch(_)) { BAD_INPUT } else { FAILED }
 }
 
@@ -201,7 +201,7 @@ fn describe(scene: &Scene, console: &mut Console) {
 fn preview_aperture(scene: &Scene, path: &Path, console: &mut Console) {
     match preview::save_aperture(scene.camera.aperture(), path) {
         Ok(()) => console.say(&format!("Saved {}", path.display())),
-        Err(error) => console.say(&format!("warning: {error}")),
+        Err(error) => console.warn(&error.to_string()),
     }
 }
 
@@ -217,7 +217,7 @@ pub fn denoiser(development: &Development, console: &mut Console) -> Option<Arc<
     match Denoiser::find() {
         Ok(denoiser) => Some(Arc::new(denoiser)),
         Err(error) => {
-            console.say(&format!("warning: no denoised picture: {error}"));
+            console.warn(&format!("no denoised picture: {error}"));
             None
         }
     }
@@ -248,7 +248,7 @@ fn catch_interrupts(console: &mut Console) {
         }
     });
     if let Err(error) = caught {
-        console.say(&format!("warning: Ctrl-C will not save the picture: {error}"));
+        console.warn(&format!("Ctrl-C will not save the picture: {error}"));
     }
 }
 
@@ -268,7 +268,7 @@ fn follow(mut session: Session, job: &SaveJob, console: &mut Console) -> u8 {
         match session.wait(ON_TERMINAL.min(between).min(saver.until_due())) {
             Event::Progress(progress) => {
                 if last_line.is_none_or(|t| t.elapsed() >= between) {
-                    console.progress(&progress_text(&progress));
+                    console.progress(&progress);
                     last_line = Some(Instant::now());
                 }
                 saver.tend(&session, console);
@@ -289,18 +289,20 @@ fn finish(
     console: &mut Console,
 ) -> u8 {
     saver.wait_for_last(console);
-    console.say(&progress_text(progress));
+    console.last_progress(progress);
     if let HaltReason::Failed(message) = reason {
-        console.say(&format!("error: {message}"));
+        console.error(message);
     }
     let saved = session.saved(&saver.job.version);
     if saved.film.refused > 0 {
-        console.say(&format!(
-            "warning: {} contributions were not finite and were left out: this is a bug, please report it",
+        console.warn(&format!(
+            "{} contributions were not finite and were left out: this is a bug, please report it",
             saved.film.refused
         ));
     }
+    let start = Instant::now();
     let is_saved = say_saved(&saver.job.save(&saved), console);
+    console.detail(&format!("Developed and saved in {:.2} s", start.elapsed().as_secs_f64()));
     if is_saved && !matches!(reason, HaltReason::Failed(_)) { RENDERED } else { FAILED }
 }
 
@@ -310,7 +312,7 @@ pub fn say_saved(saved: &Saved, console: &mut Console) -> bool {
         console.say(&format!("Saved {}", file.display()));
     }
     for error in &saved.failures {
-        console.say(&format!("error: {error}"));
+        console.error(&error.to_string());
     }
     saved.failures.is_empty()
 }
@@ -362,7 +364,7 @@ impl Saver<'_> {
     fn complain(&mut self, error: &SaveError, console: &mut Console) {
         self.failures += 1;
         if self.failures.is_power_of_two() {
-            console.say(&format!("warning: {error}; rendering goes on, and saving will be tried again"));
+            console.warn(&format!("{error}; rendering goes on, and saving will be tried again"));
         }
     }
 }

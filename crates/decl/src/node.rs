@@ -236,19 +236,34 @@ impl Node {
     /// Calls `visit` with each reference to something defined elsewhere: what it refers to ("material"), the name,
     /// and where it stands. Nothing counts as read by it.
     pub fn visit_references(&self, visit: &mut impl FnMut(&'static str, &str, Span)) {
+        self.visit_texts(&mut |kind, name, span| {
+            if let Kind::Reference(what) = kind {
+                visit(what, name, span);
+            }
+        });
+    }
+
+    /// Calls `visit` with the path of each file that is named, and where it stands. Nothing counts as read by it.
+    pub fn visit_paths(&self, visit: &mut impl FnMut(&str, Span)) {
+        self.visit_texts(&mut |kind, path, span| {
+            if matches!(kind, Kind::Path) && !path.is_empty() {
+                visit(path, span);
+            }
+        });
+    }
+
+    fn visit_texts(&self, visit: &mut impl FnMut(Kind, &str, Span)) {
         for (field, slots) in self.block.fields.iter().zip(&self.slots) {
             for slot in slots {
-                match (&slot.content, field.kind) {
-                    (Content::Node(inner), _) => inner.visit_references(visit),
-                    (Content::Value(Value::Text(name)), Kind::Reference(what)) => {
-                        visit(what, name, slot.span);
-                    }
+                match &slot.content {
+                    Content::Node(inner) => inner.visit_texts(visit),
+                    Content::Value(Value::Text(text)) => visit(field.kind, text, slot.span),
                     _ => {}
                 }
             }
         }
         if let Some(alternative) = &self.alternative {
-            alternative.visit_references(visit);
+            alternative.visit_texts(visit);
         }
     }
 

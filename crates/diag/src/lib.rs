@@ -9,7 +9,7 @@ mod sink;
 mod source;
 mod suggest;
 
-pub use render::{Style, summary_to_json, to_json, to_text};
+pub use render::{Style, quoted, summary_to_json, to_json, to_text};
 pub use sink::{Diagnostic, Severity, Sink};
 pub use source::{Excerpt, Position, SourceId, SourceMap, Span, Spanned};
 pub use suggest::{Candidates, nearest};

@@ -152,7 +152,8 @@ pub fn summary_to_json(file: &str, sink: &Sink) -> String {
     )
 }
 
-fn quoted(text: &str) -> String {
+/// A text as a string of JSON, with its quotation marks.
+pub fn quoted(text: &str) -> String {
     let mut out = String::from("\"");
     for c in text.chars() {
         match c {

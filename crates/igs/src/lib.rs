@@ -18,6 +18,7 @@ pub mod codes;
 mod embedded;
 mod include;
 mod limits;
+pub mod pack;
 mod read;
 mod scan;
 mod tag;

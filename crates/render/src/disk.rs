@@ -18,6 +18,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 #[derive(Clone, Debug)]
 pub struct DiskResolver {
     scene: Option<PathBuf>,
+    /// Whether nothing beside the scene counts.
+    only_resources: bool,
     resource_directories: Vec<PathBuf>,
     limit: u64,
     /// What has been read; copies of a resolver share it.
@@ -30,7 +32,19 @@ impl DiskResolver {
 
     /// A resolver that also looks into these directories.
     pub fn new(resource_directories: Vec<PathBuf>) -> Self {
-        Self { scene: None, resource_directories, limit: Self::DEFAULT_LIMIT, files: Arc::default() }
+        Self {
+            scene: None,
+            only_resources: false,
+            resource_directories,
+            limit: Self::DEFAULT_LIMIT,
+            files: Arc::default(),
+        }
+    }
+
+    /// A resolver that looks into these directories alone, for files that come with the program. The paths must be
+    /// relative and without detours.
+    pub fn only(resource_directories: Vec<PathBuf>) -> Self {
+        Self { only_resources: true, ..Self::new(resource_directories) }
     }
 
     /// The same resolver for what is named anywhere in a scene and the files that it includes.
@@ -46,6 +60,9 @@ impl DiskResolver {
 
     fn candidates(&self, path: &str, from: &str) -> Vec<PathBuf> {
         let path = path.replace('\\', "/");
+        if self.only_resources {
+            return self.resource_directories.iter().map(|d| d.join(&path)).collect();
+        }
         if from.is_empty() {
             return vec![PathBuf::from(path)];
         }

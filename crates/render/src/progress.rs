@@ -11,6 +11,8 @@ pub struct Progress {
     pub samples_per_pixel: f64,
     /// Samples per second over the last few seconds.
     pub samples_per_second: f64,
+    /// Rays traced in this session, between vertices of paths and to see whether one sees another.
+    pub rays: u64,
     /// Time spent rendering, pauses left out.
     pub elapsed: Duration,
     /// Time until the halting condition, if there is one.

@@ -22,6 +22,8 @@ pub(crate) struct Shared {
     pub unit_limit: u64,
     /// Samples handed over or gathered so far.
     pub samples: AtomicU64,
+    /// Rays traced so far.
+    pub rays: AtomicU64,
     /// Workers hand over when this has moved on.
     pub epoch: AtomicU64,
     pub gate: Gate,
@@ -82,6 +84,7 @@ fn merge(film: &MasterFilm, delta: &FilmDelta) {
 pub(crate) fn work(shared: &Shared) {
     let mut deltas: Vec<FilmDelta> = shared.films.iter().map(MasterFilm::delta).collect();
     let mut tracer = shared.driver.tracer();
+    let mut rays_told = tracer.rays();
     let mut seen_epoch = shared.epoch.load(Ordering::Relaxed);
     loop {
         // In order, everything has been handed over already.
@@ -96,6 +99,8 @@ pub(crate) fn work(shared: &Shared) {
         let film = shared.film_of(unit);
         let samples = render_unit(shared, unit, &mut tracer, &mut deltas[film]);
         shared.samples.fetch_add(samples.unwrap_or(0), Ordering::Relaxed);
+        shared.rays.fetch_add(tracer.rays() - rays_told, Ordering::Relaxed);
+        rays_told = tracer.rays();
         if let Some(ordered) = &shared.ordered {
             // Also what a unit that failed has done: those after it wait for it.
             ordered.hand_over(&shared.films, unit, film, deltas[film].take());

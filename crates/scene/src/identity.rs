@@ -7,8 +7,8 @@
 //! in the place of its path, so that two files whose contents change places make another scene.
 
 use indigo_decl::{Element, EmbeddedMesh, ResolveError, Resolved, Resolver};
-use indigo_diag::{SourceId, SourceMap};
-use std::collections::BTreeMap;
+use indigo_diag::{SourceMap, Span};
+use std::collections::{BTreeMap, HashSet};
 use std::sync::{Mutex, PoisonError};
 
 /// Elements without influence on the film.
@@ -27,15 +27,17 @@ impl<'a> Witness<'a> {
         Self { inner, seen: Mutex::default() }
     }
 
-    /// The hash of a scene and of the files that have been read for it.
-    pub fn identity(&self, outline: &Outline, sources: &SourceMap) -> [u8; 32] {
+    /// The hash of a scene and of the files that have been read for it. `paths` are the places of all paths: a file
+    /// that was not read, since nothing uses what names it, has no influence on the film.
+    pub fn identity(&self, outline: &Outline, paths: &HashSet<Span>, sources: &SourceMap) -> [u8; 32] {
         let seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
         let mut hasher = blake3::Hasher::new();
         hasher.update(&outline.shape);
-        for (source, text) in &outline.texts {
+        for (span, text) in &outline.texts {
             // A name that happens to be a path as well stands for the same content everywhere.
-            match seen.get(&(text.to_string(), sources.name(*source).to_owned())) {
+            match seen.get(&(text.to_string(), sources.name(span.source).to_owned())) {
                 Some(content) => _ = hasher.update(&[1]).update(content),
+                None if paths.contains(span) => _ = hasher.update(&[2]),
                 None => {
                     hasher.update(&[0]);
                     hash_text(&mut hasher, text);
@@ -60,8 +62,8 @@ impl Resolver for Witness<'_> {
 pub(crate) struct Outline {
     /// The hash of all but the texts.
     shape: [u8; 32],
-    /// The texts in order, each with the file that it stands in.
-    texts: Vec<(SourceId, Box<str>)>,
+    /// The texts in order, each with its place.
+    texts: Vec<(Span, Box<str>)>,
 }
 
 impl Outline {
@@ -72,12 +74,12 @@ impl Outline {
     }
 }
 
-fn outline_element(hasher: &mut blake3::Hasher, texts: &mut Vec<(SourceId, Box<str>)>, element: &Element) {
+fn outline_element(hasher: &mut blake3::Hasher, texts: &mut Vec<(Span, Box<str>)>, element: &Element) {
     hash_text(hasher, &element.name);
     let text = &element.text;
     hash_count(hasher, usize::from(!text.value.is_empty()));
     if !text.value.is_empty() {
-        texts.push((text.span.source, text.value.clone()));
+        texts.push((text.span, text.value.clone()));
     }
     hash_count(hasher, element.attributes.len());
     for attribute in &element.attributes {

@@ -5,6 +5,7 @@
 //! What is wrong goes to a sink with its place; reading never stops at the first fault.
 
 pub mod codes;
+mod contents;
 mod identity;
 mod load;
 mod lower;
@@ -13,6 +14,7 @@ mod scene;
 pub mod schema;
 mod settings;
 
+pub use contents::{Contents, LoadedContents, load_contents};
 pub use load::{LoadOptions, Loaded, LoadedDevelopment, Override, load, load_development};
 pub use scene::{
     DIFFRACTION_OF_RAYS, Development, FOREGROUND_ALPHA, FilmSettings, Identity, MetropolisSettings,

@@ -10,6 +10,7 @@ use indigo_decl::{Element, Node, Resolver, bind};
 use indigo_diag::{Sink, SourceMap, Span, Spanned};
 use indigo_geom::{NoStore, TreeStore};
 use indigo_igs::{Limits, read_document, read_scene};
+use std::collections::HashSet;
 
 /// A setting given on the command line.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -76,10 +77,10 @@ pub struct LoadedDevelopment {
 }
 
 /// The elements of a scene and its settings, bound.
-struct Bound {
+pub(crate) struct Bound {
     /// What the elements say.
     outline: Outline,
-    root: Node,
+    pub root: Node,
     settings: Settings,
 }
 
@@ -100,7 +101,9 @@ pub fn load(path: &str, options: &LoadOptions) -> Loaded {
     };
     let mut scene = lower::lower(&bound.root, &bound.settings, path, context).filter(|_| !sink.has_errors());
     if let Some(scene) = &mut scene {
-        scene.identity.hash = witness.identity(&bound.outline, &sources);
+        let mut paths = HashSet::new();
+        bound.root.visit_paths(&mut |_, span| _ = paths.insert(span));
+        scene.identity.hash = witness.identity(&bound.outline, &paths, &sources);
     }
     Loaded { scene, settings: Some(bound.settings), sources, sink }
 }
@@ -118,7 +121,7 @@ pub fn load_development(path: &str, options: &LoadOptions) -> LoadedDevelopment 
     LoadedDevelopment { development: development.filter(|_| !sink.has_errors()), sources, sink }
 }
 
-fn read_and_bind(
+pub(crate) fn read_and_bind(
     path: &str,
     options: &LoadOptions,
     sources: &mut SourceMap,

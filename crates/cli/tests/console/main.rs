@@ -4,6 +4,8 @@ mod denoising;
 mod files;
 mod films;
 mod messages;
+mod packs;
+mod saying;
 #[cfg(unix)]
 mod signals;
 mod workbench;

@@ -1,0 +1,97 @@
+//! What shells offer after a part of a word: `indigo_console -completions bash`.
+
+use super::table::{FLAGS, Flag, Value};
+use std::fmt::Write as _;
+
+/// The shells that completions are written for.
+pub const SHELLS: [&str; 3] = ["bash", "zsh", "fish"];
+
+/// Endings of files that are a scene, a film or a picture.
+const FILES: &str = "igs|pigs|igi|png";
+
+/// The completions for a shell; `None` for a shell that is not known.
+pub fn completions(shell: &str) -> Option<String> {
+    match shell {
+        "bash" => Some(bash()),
+        "zsh" => Some(zsh()),
+        "fish" => Some(fish()),
+        _ => None,
+    }
+}
+
+fn names(flag: &Flag) -> impl Iterator<Item = &'static str> {
+    std::iter::once(flag.name).chain(flag.alias)
+}
+
+fn bash() -> String {
+    let all: Vec<String> = FLAGS.iter().flat_map(names).map(|name| format!("-{name}")).collect();
+    let with = |is_wanted: fn(&Value) -> bool| -> String {
+        let wanted = FLAGS.iter().filter(|f| f.value.is_some_and(|value| is_wanted(&Value::of(value))));
+        let names: Vec<String> =
+            wanted.flat_map(names).flat_map(|n| [format!("-{n}"), format!("--{n}")]).collect();
+        names.join("|")
+    };
+    format!(
+        "_indigo_console() {{\n    \
+         local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}}\n    \
+         COMPREPLY=()\n    \
+         case $before in\n        \
+         {}) return ;;\n        \
+         {}) compopt -o filenames; mapfile -t COMPREPLY < <(compgen -f -- \"$word\"); return ;;\n    \
+         esac\n    \
+         if [[ $word == -* ]]; then\n        \
+         mapfile -t COMPREPLY < <(compgen -W '{}' -- \"$word\")\n    \
+         else\n        \
+         compopt -o filenames\n        \
+         mapfile -t COMPREPLY < <(compgen -d -- \"$word\"; compgen -f -- \"$word\" | grep -Ei '\\.({FILES})$')\n    \
+         fi\n\
+         }}\n\
+         complete -F _indigo_console indigo_console\n",
+        with(|value| *value == Value::Word),
+        with(|value| *value == Value::File),
+        all.join(" ")
+    )
+}
+
+fn zsh() -> String {
+    let mut script = String::from("#compdef indigo_console\n_arguments \\\n");
+    for flag in FLAGS {
+        let doc = first_sentence(flag.doc)
+            .replace('\'', "'\\''")
+            .replace('[', "\\[")
+            .replace(']', "\\]")
+            .replace(':', "\\:");
+        for name in names(flag) {
+            let value = flag.value.map_or_else(String::new, |value| match Value::of(value) {
+                Value::Word => format!(":{value}:"),
+                Value::File => format!(":{value}:_files"),
+            });
+            // Writing to a string cannot fail.
+            let _ = writeln!(script, "    '-{name}[{doc}]{value}' \\");
+        }
+    }
+    let _ = writeln!(script, "    '*:file:_files -g \"*.({FILES})(-.)\"'");
+    script
+}
+
+fn fish() -> String {
+    let mut script = String::new();
+    for flag in FLAGS {
+        let doc = first_sentence(flag.doc).replace('\\', "\\\\").replace('\'', "\\'");
+        for name in names(flag) {
+            let value = match flag.value.map(Value::of) {
+                None => "",
+                Some(Value::Word) => " -x",
+                Some(Value::File) => " -r",
+            };
+            // Writing to a string cannot fail.
+            let _ = writeln!(script, "complete -c indigo_console -o {name}{value} -d '{doc}'");
+        }
+    }
+    script
+}
+
+fn first_sentence(doc: &str) -> &str {
+    let end = doc.find(['.', ':', ';']).unwrap_or(doc.len());
+    doc.get(..end).unwrap_or(doc)
+}

@@ -1,0 +1,113 @@
+//! Packing scenes and unpacking them.
+
+use crate::console::Console;
+use crate::flags::Arguments;
+use crate::{FAILED, RENDERED, count, json_report, refuse, report, with_load_options};
+use indigo_decl::Resolver as _;
+use indigo_igs::pack::{PACK_ENDING, Pack, PackLimits, PackResolver};
+use indigo_render::atomic::write_atomically;
+use indigo_render::disk::{DiskResolver, read_limited};
+use indigo_scene::load_contents;
+use std::cell::Cell;
+use std::io::Write as _;
+use std::path::Path;
+
+/// Whether a file is a packed scene, by its name.
+pub fn is_pack(path: &str) -> bool {
+    Path::new(path).extension().is_some_and(|ending| ending.eq_ignore_ascii_case(PACK_ENDING))
+}
+
+/// Where the files of a packed scene come from.
+///
+/// # Errors
+/// Why it is not read.
+pub fn open<'a>(
+    path: &'a str,
+    disk: &'a DiskResolver,
+    resources: &'a DiskResolver,
+) -> Result<PackResolver<'a>, String> {
+    let file = disk.read(path, "").map_err(|error| format!("cannot read {path}: {error}"))?;
+    PackResolver::open(path, file.bytes, &PackLimits::default(), disk, resources)
+        .map_err(|error| format!("{path}: {error}"))
+}
+
+/// Packs a scene; the exit status.
+pub fn pack(arguments: &Arguments, console: &mut Console) -> u8 {
+    // The command line was checked for just these.
+    let [scene, output] = &arguments.files[..] else { return refuse("two files are expected", console) };
+    if !is_pack(output) {
+        return refuse(&format!("{output}: a name that ends in .{PACK_ENDING} is expected"), console);
+    }
+    if is_pack(scene) {
+        return refuse(&format!("{scene} is packed already"), console);
+    }
+    let packed = with_load_options(scene, arguments, |options| {
+        let loaded = load_contents(scene, options);
+        let written = loaded.contents.as_ref().map(|contents| {
+            let files = Cell::new(0);
+            let written = write_atomically(Path::new(output), |file| {
+                files.set(contents.pack(file, &loaded.sources, options.resolver)?);
+                Ok(())
+            });
+            written.map(|()| files.get())
+        });
+        (loaded, written)
+    });
+    let ((loaded, written), _) = match packed {
+        Ok(packed) => packed,
+        Err(message) => return refuse(&message, console),
+    };
+    if !arguments.json {
+        report(scene, &loaded.sink, &loaded.sources, false, console);
+    } else if !console.answer(&json_report(scene, &loaded.sink, &loaded.sources)) {
+        return FAILED;
+    }
+    match written {
+        Some(Ok(files)) => {
+            console.say(&format!("Saved {output}: the scene and {}", count(files, "file")));
+            RENDERED
+        }
+        Some(Err(error)) => {
+            console.error(&format!("cannot write {output}: {error}"));
+            FAILED
+        }
+        None => refuse("the scene is not packed", console),
+    }
+}
+
+/// Unpacks a packed scene into a folder that is not there yet, or empty; the exit status.
+pub fn unpack(arguments: &Arguments, console: &mut Console) -> u8 {
+    let [path, folder] = &arguments.files[..] else { return refuse("two names are expected", console) };
+    let opened = read_limited(Path::new(path))
+        .map_err(|error| error.to_string())
+        .and_then(|bytes| Pack::open(bytes.into(), &PackLimits::default()).map_err(|e| e.to_string()));
+    let pack = match opened {
+        Ok(pack) => pack,
+        Err(error) => return refuse(&format!("{path}: {error}"), console),
+    };
+    let main = match pack.main() {
+        Ok(main) => main,
+        Err(error) => return refuse(&format!("{path}: {error}"), console),
+    };
+    let folder = Path::new(folder);
+    match std::fs::read_dir(folder).map(|mut entries| entries.next().is_none()) {
+        Ok(false) => {
+            return refuse(&format!("{} is not empty; a new folder is expected", folder.display()), console);
+        }
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+            return refuse(&format!("{}: {error}", folder.display()), console);
+        }
+        _ => {}
+    }
+    for (name, _) in pack.members() {
+        let written = pack.read(name).map_err(|error| error.to_string()).and_then(|content| {
+            write_atomically(&folder.join(name), |file| file.write_all(&content)).map_err(|e| e.to_string())
+        });
+        if let Err(error) = written {
+            console.error(&format!("{}: {error}", folder.join(name).display()));
+            return FAILED;
+        }
+    }
+    console.say(&format!("Saved {}", folder.join(main).display()));
+    RENDERED
+}

@@ -1,0 +1,145 @@
+//! `-ptest`: how fast a scene is rendered here, by a fixed amount of work.
+
+use crate::console::Console;
+use crate::flags::Arguments;
+use crate::render::logical_cores;
+use crate::{BAD_INPUT, FAILED, RENDERED, found_errors, refuse, with_resolver};
+use indigo_diag::quoted;
+use indigo_imaging::develop;
+use indigo_render::pool::with_jobs;
+use indigo_render::{Event, Halt, HaltReason, Options, Session};
+use indigo_scene::schema::settings::MOST_THREADS;
+use indigo_scene::{LoadOptions, Scene, load};
+use std::fmt::Write as _;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// Samples that a scene is rendered with unless it is told how many: some seconds on one core.
+const SAMPLES: u64 = 4 << 20;
+
+/// A figure: its name, its value, and its unit.
+type Figure = (&'static str, String, &'static str);
+
+/// Measures; the exit status.
+pub fn run(path: &str, arguments: &Arguments, console: &mut Console) -> u8 {
+    match measure(path, arguments, console) {
+        Ok(figures) => {
+            let text = if arguments.json { as_json(&figures) } else { as_text(&figures) };
+            if console.answer(&text) { RENDERED } else { FAILED }
+        }
+        Err(status) => status,
+    }
+}
+
+fn measure(path: &str, arguments: &Arguments, console: &mut Console) -> Result<Vec<Figure>, u8> {
+    let (read, load_time, scene) = load_cold(path, arguments, console)?;
+    let pixels = scene.film.size.pixels() as u64;
+    let wanted = scene.output.halt_samples_per_pixel.map(|n| n.ceil() as u64);
+    let passes = wanted.unwrap_or_else(|| SAMPLES.div_ceil(pixels.max(1)));
+    let threads = scene.output.threads.unwrap_or_else(logical_cores).min(MOST_THREADS);
+    let halt = Halt { samples_per_pixel: Some(passes), ..Halt::default() };
+    let options = Options { threads, seed: arguments.seed.unwrap_or_default(), halt, ..Options::default() };
+    let scene = Arc::new(scene);
+    let start = Instant::now();
+    let mut session =
+        Session::start(Arc::clone(&scene), &options).map_err(|error| refuse(&error.to_string(), console))?;
+    let first = start.elapsed();
+    let progress = loop {
+        match session.wait(Duration::from_millis(100)) {
+            Event::Progress(progress) => console.progress(&progress),
+            Event::Halted(HaltReason::Failed(message), _) => {
+                console.error(&message);
+                return Err(FAILED);
+            }
+            Event::Halted(_, progress) => break progress,
+        }
+    };
+    console.last_progress(&progress);
+    let film = session.snapshot();
+    let start = Instant::now();
+    let picture = with_jobs(threads, || develop(&film, &scene.picture));
+    let develop_time = start.elapsed();
+    drop(picture);
+    let seconds = progress.elapsed.as_secs_f64().max(f64::MIN_POSITIVE);
+    let per_second = |n: u64| format!("{:.0}", n as f64 / seconds);
+    let stats = scene.stats();
+    Ok(vec![
+        ("program", crate::render::program(), ""),
+        ("scene", hex(&scene.identity.hash), ""),
+        ("technique", technique(&scene).to_owned(), ""),
+        ("threads", threads.to_string(), ""),
+        ("triangles", stats.geometry.triangles.to_string(), ""),
+        ("pixels", pixels.to_string(), ""),
+        ("read", seconds_of(read), "s"),
+        ("build", seconds_of(load_time.saturating_sub(read)), "s"),
+        ("start", seconds_of(first), "s"),
+        ("render", seconds_of(progress.elapsed), "s"),
+        ("develop", seconds_of(develop_time), "s"),
+        ("samples", progress.samples.to_string(), ""),
+        ("rays", progress.rays.to_string(), ""),
+        ("samples_per_second", per_second(progress.samples), "1/s"),
+        ("rays_per_second", per_second(progress.rays), "1/s"),
+    ])
+}
+
+/// Loads a scene once to see how long reading takes and once wholly, with all trees built anew: both times, and the
+/// scene.
+fn load_cold(
+    path: &str,
+    arguments: &Arguments,
+    console: &mut Console,
+) -> Result<(Duration, Duration, Scene), u8> {
+    let loaded = with_resolver(path, |resolver, inifile| {
+        let options = LoadOptions { inifile, overrides: &arguments.settings, ..LoadOptions::new(resolver) };
+        let timed = |options: &LoadOptions| {
+            let start = Instant::now();
+            let loaded = with_jobs(logical_cores(), || load(path, options));
+            (start.elapsed(), loaded)
+        };
+        let (read, _) = timed(&LoadOptions { check_only: true, ..options });
+        let (load_time, loaded) = timed(&options);
+        (read, load_time, loaded)
+    });
+    let ((read, load_time, loaded), _) = loaded.map_err(|message| refuse(&message, console))?;
+    found_errors(path, &loaded, arguments, console)?;
+    loaded.scene.map_or(Err(BAD_INPUT), |scene| Ok((read, load_time, scene)))
+}
+
+fn technique(scene: &Scene) -> &'static str {
+    let t = &scene.transport;
+    match (t.bidirectional, t.metropolis.is_some(), t.hybrid) {
+        (false, false, _) => "path",
+        (true, false, _) => "bidirectional",
+        (false, true, false) => "path-metropolis",
+        (true, true, false) => "bidirectional-metropolis",
+        (false, true, true) => "path-hybrid",
+        (true, true, true) => "bidirectional-hybrid",
+    }
+}
+
+fn seconds_of(time: Duration) -> String {
+    format!("{:.3}", time.as_secs_f64())
+}
+
+fn hex(bytes: &[u8]) -> String {
+    bytes.iter().fold(String::new(), |mut text, byte| {
+        // Writing to a string cannot fail.
+        let _ = write!(text, "{byte:02x}");
+        text
+    })
+}
+
+fn as_text(figures: &[Figure]) -> String {
+    let lines =
+        figures.iter().map(|(name, value, unit)| format!("{name:<20} {value} {unit}").trim_end().to_owned());
+    lines.map(|line| line + "\n").collect()
+}
+
+fn as_json(figures: &[Figure]) -> String {
+    let field = |(name, value, _): &Figure| {
+        // All that is not text is a number, in the form of JSON.
+        let is_number = value.parse::<f64>().is_ok_and(f64::is_finite) && *name != "scene";
+        format!("{}:{}", quoted(name), if is_number { value.clone() } else { quoted(value) })
+    };
+    format!("{{{}}}\n", figures.iter().map(field).collect::<Vec<_>>().join(","))
+}

@@ -1,0 +1,127 @@
+//! Packing scenes, rendering them as they are, and unpacking them.
+
+use super::workbench::Workbench;
+
+const QUIET: &str = "<logging>false</logging>";
+const CHECKER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../testscenes/textures/checker.png");
+
+/// A scene of several files: an included one that has a texture and a metal, and the texture once more by another name.
+fn bench() -> Workbench {
+    let bench = Workbench::new(&format!("{QUIET}<save_igi>true</save_igi>"));
+    let texture = "<diffuse><albedo_texture><uv_set>uv</uv_set><path>NAME</path></albedo_texture></diffuse>";
+    std::fs::create_dir_all(bench.path("maps & more")).expect("a folder");
+    std::fs::create_dir_all(bench.path("parts")).expect("a folder");
+    for copy in ["maps & more/wood.png", "parts/copy.png"] {
+        std::fs::copy(CHECKER, bench.path(copy)).expect("a test scene's texture");
+    }
+    bench.write(
+        "parts/metals.igs",
+        "<!-- metals --><scenedata><material><name>gold</name><phong><nk_data>nkdata/au.nk</nk_data>\
+         <exponent>50</exponent></phong></material>\n<material><name>same</name>\
+         <diffuse><albedo_texture><uv_set>uv</uv_set><path><![CDATA[copy.png]]></path></albedo_texture></diffuse>\
+         </material></scenedata>",
+    );
+    let scene = std::fs::read_to_string(bench.path("scene.igs")).expect("the scene");
+    let more = format!(
+        "<!-- who -->\n<include><pathname>parts\\metals.igs</pathname></include>\
+         <material><name>wood</name>{}</material>\
+         <mesh><name>card</name><embedded><expose_uv_set><index>0</index><name>uv</name></expose_uv_set>\
+         <vertex pos=\"-2 3 -1\" normal=\"0 -1 0\" uv0=\"0 0\"/><vertex pos=\"-1 3 -1\" normal=\"0 -1 0\" uv0=\"1 0\"/>\
+         <vertex pos=\"-1 3 1\" normal=\"0 -1 0\" uv0=\"1 1\"/>\
+         <triangle_set><material_name>wood</material_name><tri>0 1 2</tri></triangle_set></embedded></mesh>\
+         <model><pos>0 0 0</pos><scale>1</scale><mesh_name>card</mesh_name></model>\
+         <sphere><center>1.5 4 0</center><radius>0.5</radius><material_name>gold</material_name></sphere>\n</scene>",
+        texture.replace("NAME", " maps &amp; more/wood.png ")
+    );
+    bench.write("scene.igs", &scene.replace("</scene>", &more));
+    bench
+}
+
+#[test]
+fn a_packed_scene_is_the_same_scene() {
+    let bench = bench();
+    let ran = bench.run(&["--pack", "scene.igs", "out.pigs"]);
+    assert_eq!(ran.status, Some(0), "{ran:?}");
+    assert!(ran.stderr.contains("Saved out.pigs: the scene and 3 files"), "{}", ran.stderr);
+    assert_eq!(bench.run(&["--pack", "scene.igs", "again.pigs"]).status, Some(0));
+    let bytes = |name: &str| std::fs::read(bench.path(name)).expect("a file");
+    assert_eq!(bytes("out.pigs"), bytes("again.pigs"), "always the same bytes");
+    // In another folder, where none of the files is.
+    std::fs::create_dir(bench.path("elsewhere")).expect("a folder");
+    std::fs::rename(bench.path("out.pigs"), bench.path("elsewhere/out.pigs")).expect("a move");
+    let packed = bench.run(&["elsewhere/out.pigs", "-haltspp", "4", "-t", "1", "-o", "packed.png"]);
+    assert_eq!(packed.status, Some(0), "{packed:?}");
+    let plain = bench.run(&["scene.igs", "-haltspp", "4", "-t", "1", "-o", "plain.png"]);
+    assert_eq!(plain.status, Some(0), "{plain:?}");
+    let pixels = |name: &str| indigo_formats::image::decode(name, &bytes(name)).expect("a picture").pixels;
+    assert_eq!(pixels("packed.png"), pixels("plain.png"));
+    // A film of the one goes on with the other.
+    let on = bench.run(&["elsewhere/out.pigs", "-r", "plain.igi", "-haltspp", "8", "-o", "on.png"]);
+    assert_eq!(on.status, Some(0), "{on:?}");
+    assert!(on.stderr.contains("Going on with"), "{}", on.stderr);
+}
+
+#[test]
+fn an_unpacked_scene_renders_and_keeps_its_text() {
+    let bench = bench();
+    assert_eq!(bench.run(&["--pack", "scene.igs", "out.pigs"]).status, Some(0));
+    let ran = bench.run(&["--unpack", "out.pigs", "there/new"]);
+    assert_eq!(ran.status, Some(0), "{ran:?}");
+    let mut names: Vec<String> = std::fs::read_dir(bench.path("there/new"))
+        .expect("a folder")
+        .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    assert_eq!(names, ["PACKED_0_au.nk", "PACKED_1_copy.png", "PACKED_2_metals.igs", "scene.igs"]);
+    let text = |name: &str| std::fs::read_to_string(bench.path(name)).expect("a text");
+    let rewritten = text("there/new/scene.igs")
+        .replace("PACKED_2_metals.igs", "parts\\metals.igs")
+        .replace("PACKED_1_copy.png", "maps &amp; more/wood.png");
+    assert_eq!(rewritten, text("scene.igs"), "nothing but the paths is another");
+    assert!(text("there/new/PACKED_2_metals.igs").contains("<path><![CDATA[PACKED_1_copy.png]]></path>"));
+    let check = bench.run(&["there/new/scene.igs", "--check"]);
+    assert_eq!(check.status, Some(0), "{check:?}");
+    // A folder with something in it is left alone.
+    let again = bench.run(&["--unpack", "out.pigs", "there/new"]);
+    assert_eq!(again.status, Some(2), "{again:?}");
+    assert!(again.stderr.contains("is not empty"), "{}", again.stderr);
+}
+
+#[test]
+fn what_cannot_be_packed_is_named() {
+    let bench = bench();
+    std::fs::remove_file(bench.path("parts/copy.png")).expect("a file");
+    let ran = bench.run(&["--pack", "scene.igs", "out.pigs"]);
+    assert_eq!(ran.status, Some(2), "{ran:?}");
+    assert!(ran.stderr.contains("metals.igs:2:"), "{}", ran.stderr);
+    assert!(ran.stderr.contains("cannot read copy.png"), "{}", ran.stderr);
+    assert!(!bench.path("out.pigs").exists());
+    let wrong = bench.run(&["--pack", "scene.igs", "out.zip"]);
+    assert_eq!(wrong.status, Some(2), "{wrong:?}");
+    assert!(wrong.stderr.contains("ends in .pigs"), "{}", wrong.stderr);
+    let one = bench.run(&["--pack", "scene.igs"]);
+    assert!(one.status == Some(2) && one.stderr.contains("--pack SCENE.igs OUT.pigs"), "{one:?}");
+    bench.write(
+        "odd.igs",
+        "<scene><env_map><latlong><path>a<![CDATA[b.exr]]></path><gain>1</gain></latlong></env_map></scene>",
+    );
+    std::fs::write(bench.path("ab.exr"), b"x").expect("a file");
+    let odd = bench.run(&["--pack", "odd.igs", "odd.pigs"]);
+    assert!(odd.status == Some(2) && odd.stderr.contains("E0313"), "{odd:?}");
+}
+
+#[test]
+fn what_is_wrong_in_a_packed_scene_has_its_place_there() {
+    let bench = bench();
+    bench.write("bad.pigs", "<scene/>");
+    let ran = bench.run(&["bad.pigs"]);
+    assert_eq!(ran.status, Some(2), "{ran:?}");
+    assert!(ran.stderr.contains("bad.pigs: this is not a sound packed scene"), "{}", ran.stderr);
+    // A fault that packing does not look for: a metal without data.
+    let metals = std::fs::read_to_string(bench.path("parts/metals.igs")).expect("it");
+    bench.write("parts/metals.igs", &metals.replace("nkdata/au.nk", "../scene.igs"));
+    assert_eq!(bench.run(&["--pack", "scene.igs", "out.pigs"]).status, Some(0));
+    let ran = bench.run(&["out.pigs", "--check"]);
+    assert_eq!(ran.status, Some(2), "{ran:?}");
+    assert!(ran.stderr.contains("out.pigs/PACKED_2_metals.igs:1:"), "{}", ran.stderr);
+}

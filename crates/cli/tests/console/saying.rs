@@ -1,0 +1,130 @@
+//! What the program says: how much, to whom, and what it prints of itself.
+
+use super::workbench::Workbench;
+
+const QUIET: &str = "<logging>false</logging>";
+
+#[test]
+fn quiet_leaves_warnings_and_errors() {
+    let bench = Workbench::new(QUIET);
+    let ran = bench.run(&["scene.igs", "-haltspp", "2", "-o", "a.png", "-quiet"]);
+    assert_eq!((ran.status, &*ran.stderr), (Some(0), ""));
+    let scene = std::fs::read_to_string(bench.path("scene.igs")).expect("the scene");
+    bench.write("odd.igs", &scene.replace("<camera>", "<camera><shutter>1</shutter>"));
+    let odd = bench.run(&["odd.igs", "-haltspp", "2", "-o", "a.png", "-quiet"]);
+    assert!(odd.stderr.contains("odd.igs:") && odd.stderr.contains("shutter"), "{}", odd.stderr);
+    assert!(!odd.stderr.contains("Saved"), "{}", odd.stderr);
+}
+
+#[test]
+fn verbose_tells_what_takes_time() {
+    let bench = Workbench::new(QUIET);
+    let usual = bench.run(&["scene.igs", "-haltspp", "2", "-o", "a.png"]);
+    let verbose = bench.run(&["scene.igs", "-haltspp", "2", "-o", "a.png", "-verbose"]);
+    for words in ["Read scene.igs", "Loaded in ", "Developed and saved in "] {
+        assert!(verbose.stderr.contains(words), "{}", verbose.stderr);
+        assert!(!usual.stderr.contains(words), "{}", usual.stderr);
+    }
+}
+
+#[test]
+fn a_log_of_json_has_a_line_for_each_message() {
+    let bench = Workbench::new(QUIET);
+    let scene = std::fs::read_to_string(bench.path("scene.igs")).expect("the scene");
+    bench.write("scene.igs", &scene.replace("<camera>", "<camera><shutter>1</shutter>"));
+    let arguments = ["scene.igs", "-haltspp", "2", "-o", "a \"b\".png", "-quiet", "--log-json", "log.json"];
+    assert_eq!(bench.run(&arguments).status, Some(0));
+    let log = std::fs::read_to_string(bench.path("log.json")).expect("a log");
+    for line in log.lines() {
+        assert!(line.starts_with("{\"time\":\"2") && line.ends_with('}'), "{line}");
+        assert!(line.contains("Z\",\"level\":\""), "{line}");
+    }
+    assert!(log.contains("\"level\":\"warning\"") && log.contains("\"diagnostic\":{"), "{log}");
+    assert!(log.contains("\"level\":\"progress\"") && log.contains("\"samples_per_pixel\":2"), "{log}");
+    assert!(log.contains("Saved a \\\"b\\\".png"), "{log}");
+    let nowhere = bench.run(&["scene.igs", "-haltspp", "2", "--log-json", "no/such/folder/log.json"]);
+    assert_eq!(nowhere.status, Some(1));
+    assert!(nowhere.stderr.contains("no log can be kept"), "{}", nowhere.stderr);
+}
+
+/// A number of a line "name value unit".
+fn figure(text: &str, name: &str) -> f64 {
+    let line = text.lines().find(|l| l.split_whitespace().next() == Some(name));
+    let value =
+        line.and_then(|l| l.split_whitespace().nth(1)).unwrap_or_else(|| panic!("no {name} in {text}"));
+    value.parse().unwrap_or_else(|_| panic!("{name} is {value}"))
+}
+
+#[test]
+fn the_performance_test_does_the_same_work_each_time() {
+    let bench = Workbench::new(QUIET);
+    let run = |more: &[&str]| {
+        let ran = bench.run(&[&["scene.igs", "--ptest", "-haltspp", "4"], more].concat());
+        assert_eq!(ran.status, Some(0), "{ran:?}");
+        ran.stdout
+    };
+    let (one, two) = (run(&["-t", "1"]), run(&["-t", "2"]));
+    assert_eq!(figure(&one, "samples"), 4.0 * 1200.0);
+    for figures in [&one, &two] {
+        assert!(figure(figures, "samples_per_second") > 0.0 && figure(figures, "render") > 0.0, "{figures}");
+        // A camera ray for each sample, and often more.
+        assert!(figure(figures, "rays") >= figure(figures, "samples"), "{figures}");
+    }
+    for same in ["samples", "rays", "pixels", "triangles"] {
+        assert_eq!(figure(&one, same), figure(&two, same), "{same}");
+    }
+    assert_eq!(bench.files().iter().filter(|f| f.contains(".png")).count(), 0, "no picture is written");
+    assert!(!bench.path("cache").exists() && !bench.path("renders").exists());
+    let json = run(&["-json", "-t", "1"]);
+    assert!(json.starts_with("{\"program\":\"Indigo") && json.contains("\"samples\":4800,"), "{json}");
+    let bad = bench.run(&["nowhere.igs", "--ptest"]);
+    assert_eq!(bad.status, Some(2));
+}
+
+#[test]
+fn the_manual_page_and_completions_know_every_option() {
+    let bench = Workbench::new(QUIET);
+    let help = bench.run(&["-help"]).stdout;
+    let names: Vec<&str> = help
+        .lines()
+        .filter_map(|l| l.strip_prefix("  -"))
+        .map(|l| l.split([' ', ',']).next().unwrap_or(l))
+        .collect();
+    assert!(names.len() > 20, "{help}");
+    let man = bench.run(&["-man"]).stdout;
+    for name in &names {
+        assert!(man.contains(&format!("\\fB\\-{}\\fR", name.replace('-', "\\-"))), "{name} in {man}");
+    }
+    for shell in ["bash", "zsh", "fish"] {
+        let script = bench.run(&["-completions", shell]).stdout;
+        for name in &names {
+            assert!(script.contains(name), "{name} for {shell}");
+        }
+    }
+    let unknown = bench.run(&["-completions", "csh"]);
+    assert!(unknown.status == Some(2) && unknown.stderr.contains("bash, zsh, fish"), "{unknown:?}");
+}
+
+/// A real shell completes by the script, where there is one.
+#[cfg(target_os = "linux")]
+#[test]
+fn bash_completes_options_and_files() {
+    let bench = Workbench::new(QUIET);
+    bench.write("script", &bench.run(&["-completions", "bash"]).stdout);
+    let complete = |words: &str, at: usize| {
+        let line = format!(
+            "source ./script; COMP_WORDS=(indigo_console {words}); COMP_CWORD={at}; _indigo_console 2>/dev/null; \
+             printf '%s\\n' \"${{COMPREPLY[@]}}\""
+        );
+        let out = std::process::Command::new("bash")
+            .args(["-c", &line])
+            .current_dir(&bench.directory)
+            .output()
+            .expect("Linux has bash");
+        String::from_utf8(out.stdout).expect("text")
+    };
+    assert_eq!(complete("-haltsp", 1), "-haltspp\n");
+    assert_eq!(complete("sc", 1), "scene.igs\n");
+    assert_eq!(complete("-haltspp 3", 2), "\n");
+    assert!(complete("-r s", 2).contains("scene.igs"));
+}
