@@ -30,7 +30,10 @@ impl Pupil {
 
     /// Its far field; `None` where no light passes.
     pub fn far_field(&self) -> Option<FarField> {
-        FarField::new(&self.draw_amplitude(SIDE))
+        match (&self.aperture, &self.obstacles) {
+            (Aperture::Circular, None) => Some(FarField::of_circle()),
+            _ => FarField::new(&self.draw_amplitude(SIDE)),
+        }
     }
 
     /// Whether no light passes.

@@ -28,6 +28,8 @@ pub(super) struct Spread {
     pub radii: Vec<f64>,
     /// Density in each ring's sectors, ring after ring.
     pub density: Vec<[f32; 3]>,
+    /// Sectors of a ring that are kept: a single one where all are alike.
+    kept: usize,
     /// Angle of each sector in radians.
     widths: Vec<f64>,
 }
@@ -40,11 +42,12 @@ impl Spread {
             radii.extend(radii.last().map(|r| r * (1.0 + GROWTH)));
         }
         let wavelengths = wavelengths();
-        let mut density = fresh(vec![[0.0; 3]; (radii.len() - 1) * SECTORS]);
-        density.par_chunks_mut(SECTORS).zip(radii.par_windows(2)).for_each(|(ring, edges)| {
+        let kept = if field.is_round() { 1 } else { SECTORS };
+        let mut density = fresh(vec![[0.0; 3]; (radii.len() - 1) * kept]);
+        density.par_chunks_mut(kept).zip(radii.par_windows(2)).for_each(|(ring, edges)| {
             add_rows(&rows_at(field, &wavelengths, 0.5 * (edges[0] + edges[1])), ring);
         });
-        let mut spread = Self { radii, density, widths: field.sector_widths().to_vec() };
+        let mut spread = Self { radii, density, kept, widths: field.sector_widths().to_vec() };
         spread.normalise(field, &wavelengths);
         spread
     }
@@ -58,9 +61,9 @@ impl Spread {
             let beyond = field.beyond(last / lambda);
             sum.iter_mut().zip(weights).for_each(|(s, w)| *s += w * beyond);
         }
-        for (ring, edges) in self.density.chunks_exact(SECTORS).zip(self.radii.windows(2)) {
+        for (ring, edges) in self.density.chunks_exact(self.kept).zip(self.radii.windows(2)) {
             let squares = edges[1] * edges[1] - edges[0] * edges[0];
-            for (d, width) in ring.iter().zip(field.sector_widths()) {
+            for (d, width) in ring.iter().cycle().zip(field.sector_widths()) {
                 let area = squares * width;
                 sum.iter_mut().zip(d).for_each(|(s, &d)| *s += area * f64::from(d));
             }
@@ -72,6 +75,9 @@ impl Spread {
     /// Averages the rings from `first` on over directions by a triangle; `half_width` tells half of its base, an
     /// angle in radians, for an offset.
     pub fn smooth(&mut self, first: usize, half_width: impl Fn([f64; 2]) -> f64 + Sync) {
+        if self.kept == 1 {
+            return;
+        }
         let directions: Vec<[f64; 2]> = (0..SECTORS).map(|j| direction(j as f64 + 0.5)).collect();
         let rings = self.density.par_chunks_mut(SECTORS).zip(self.radii.par_windows(2)).skip(first);
         rings.for_each_init(Vec::new, |sharp: &mut Vec<[f32; 3]>, (ring, edges)| {
@@ -96,6 +102,10 @@ impl Spread {
         let here = self.ring_at(radius);
         let first = if radius < middle(here) { here.saturating_sub(1) } else { here.min(rings - 2) };
         let t = (radius - middle(first)) / (middle(first + 1) - middle(first));
+        if self.kept == 1 {
+            let (a, b) = (self.density[first], self.density[first + 1]);
+            return std::array::from_fn(|c| f64::from(a[c]) + t * (f64::from(b[c]) - f64::from(a[c])));
+        }
         // Beyond straight up comes straight down, on the other side.
         let place = sector_of(x, y) - 0.5;
         let left = place.floor();
@@ -152,8 +162,8 @@ impl Spread {
         let points = |pixels: f64| (pixels / spacing).ceil().max(1.0) as usize;
         for i in rings {
             let lo = self.radii[i];
-            let ring = &self.density[i * SECTORS..(i + 1) * SECTORS];
-            for (j, (d, sector)) in ring.iter().zip(sectors).enumerate() {
+            let ring = &self.density[i * self.kept..(i + 1) * self.kept];
+            for (j, (d, sector)) in ring.iter().cycle().zip(sectors).enumerate() {
                 let hi = self.radii[i + 1].min(sector.reach);
                 if hi <= lo {
                     continue;
