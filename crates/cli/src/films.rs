@@ -2,7 +2,7 @@
 
 use crate::console::Console;
 use crate::flags::Arguments;
-use crate::render::{denoiser, logical_cores, overwrites, program, say_saved};
+use crate::render::{denoiser, logical_cores, overwrites, program, say_missing_folder, say_saved};
 use crate::{BAD_INPUT, FAILED, RENDERED, json_report, paths, refuse, report, with_load_options};
 use indigo_render::output::{OutputPaths, SaveJob, write_film};
 use indigo_render::pool::with_jobs;
@@ -23,6 +23,7 @@ pub fn merge(arguments: &Arguments, console: &mut Console) -> u8 {
         console.error(&format!("{}: a film of another program cannot be added to", arguments.files[0]));
         return BAD_INPUT;
     };
+    say_missing_folder(Path::new(output), console);
     match with_jobs(logical_cores(), || write_film(Path::new(output), &sum.film, record)) {
         Ok(path) => {
             let spp = record.samples as f64 / sum.film.size.pixels() as f64;
@@ -107,6 +108,7 @@ pub fn tone_map(arguments: &Arguments, console: &mut Console) -> u8 {
         console.error(&error);
         return BAD_INPUT;
     }
+    say_missing_folder(&job.paths.png, console);
     if say_saved(&job.save(&saved), console) { RENDERED } else { FAILED }
 }
 

@@ -26,6 +26,8 @@ const NOT_YET: &[&str] = &["h", "n", "p"];
 pub struct Arguments {
     /// The scene; with `merge`, `tone_map`, `pack` or `unpack` all files instead.
     pub files: Vec<String>,
+    /// Names of the options in the order in which they were given.
+    pub given: Vec<&'static str>,
     /// Settings.
     pub settings: Vec<Override<'static>>,
     /// Estimated relative error at which to stop.
@@ -98,13 +100,29 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Arguments,
                 .and_then(|v| v.into_string().ok())
                 .ok_or_else(|| format!("-{} needs a value: -{} {what}", flag.name, flag.name))?,
         };
+        parsed.given.push(flag.name);
         apply(flag, value, &mut parsed)?;
     }
     if parsed.strategies.is_some() && parsed.output.is_none() {
         return Err("-strategies needs the picture to write: -strategies 64 -o PICTURE.png".to_owned());
     }
     check_files(&parsed)?;
+    check_meaning(&parsed)?;
     Ok(parsed)
+}
+
+/// Whether every option has a part in what is done.
+fn check_meaning(parsed: &Arguments) -> Result<(), String> {
+    const ALWAYS: &[&str] = &["quiet", "verbose", "log-json"];
+    let (what, with): (_, &[&str]) = match (parsed.merge, parsed.tone_map) {
+        (true, _) => ("merge", &["merge", "o"]),
+        (_, true) => ("tonemap", &["tonemap", "layers", "denoise", "json"]),
+        _ => return Ok(()),
+    };
+    match parsed.given.iter().find(|name| !with.contains(name) && !ALWAYS.contains(name)) {
+        Some(name) => Err(format!("-{name} has no part in -{what}, which renders nothing")),
+        None => Ok(()),
+    }
 }
 
 /// Whether there are as many files as what is asked for takes.

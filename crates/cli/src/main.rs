@@ -17,6 +17,7 @@ use indigo_igs::Limits;
 use indigo_render::disk::{DiskResolver, DiskTreeStore};
 use indigo_render::output::write_strategies;
 use indigo_render::pool::with_jobs;
+use indigo_render::saved::read_film;
 use indigo_scene::{LoadOptions, Loaded, Scene, load};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -94,6 +95,11 @@ fn run(arguments: &Arguments, console: &mut Console) -> u8 {
             return BAD_INPUT;
         }
     };
+    // Before a scene that may take its time to be read.
+    let saved = match arguments.resume.as_ref().map(|path| read_film(Path::new(path))).transpose() {
+        Ok(saved) => saved,
+        Err(error) => return films::fail(&error, console),
+    };
     let start = Instant::now();
     let (loaded, read) = match load_scene(scene, arguments) {
         Ok(loaded) => loaded,
@@ -123,7 +129,7 @@ fn run(arguments: &Arguments, console: &mut Console) -> u8 {
     match loaded.scene {
         Some(scene) => match (arguments.strategies, named) {
             (Some(passes), Some(picture)) => show_strategies(&scene, arguments, passes, &picture, console),
-            (_, named) => render::render(scene, &read, arguments, named, console),
+            (_, named) => render::render(scene, &read, arguments, saved, named, console),
         },
         None if loaded.sink.has_errors() => BAD_INPUT,
         None => RENDERED,

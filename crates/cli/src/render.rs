@@ -2,12 +2,11 @@
 
 use crate::console::{Console, clock, scaled};
 use crate::flags::Arguments;
-use crate::{BAD_INPUT, FAILED, RENDERED, VERSION, count, films, paths};
+use crate::{BAD_INPUT, FAILED, RENDERED, VERSION, count, paths};
 use indigo_film::SavedFilm;
 use indigo_render::denoise::Denoiser;
 use indigo_render::first_hits::SceneFirstHits;
 use indigo_render::output::{OutputPaths, SaveError, SaveJob, Saved, Saving};
-use indigo_render::saved::read_film;
 use indigo_render::{Event, Halt, HaltReason, Options, Progress, Session, SessionError, preview};
 use indigo_scene::schema::settings::MOST_THREADS;
 use indigo_scene::{Development, OutputSettings, Scene};
@@ -33,20 +32,18 @@ pub fn logical_cores() -> usize {
 
 /// Renders a scene; the exit status.
 ///
-/// `named` is the picture's path, if the user has given one; `read` are the files that the scene was read from.
+/// `saved` is the film to go on with, if any; `named` is the picture's path, if the user has given one; `read` are the files
+/// that the scene was read from.
 pub fn render(
     scene: Scene,
     read: &[PathBuf],
     arguments: &Arguments,
+    saved: Option<SavedFilm>,
     named: Option<PathBuf>,
     console: &mut Console,
 ) -> u8 {
     let scene = Arc::new(scene);
     describe(&scene, console);
-    let saved = match arguments.resume.as_ref().map(|path| read_film(Path::new(path))).transpose() {
-        Ok(saved) => saved,
-        Err(error) => return films::fail(&error, console),
-    };
     // Before anything is written.
     if let Some(Err(error)) = saved.as_ref().map(|saved| Session::check(&scene, saved)) {
         return fail(&error, console);
@@ -84,6 +81,9 @@ pub fn render(
     if let Some(path) = preview {
         preview_aperture(&scene, &path, console);
     }
+    if arguments.output.is_some() {
+        say_missing_folder(picture.path(), console);
+    }
     // Now rather than after hours of rendering.
     if let Err(error) = job.check_writable() {
         console.error(&error.to_string());
@@ -115,6 +115,13 @@ pub fn overwrites(mut written: impl Iterator<Item = PathBuf>, read: &[PathBuf]) 
             file.display()
         )
     })
+}
+
+/// Says that a folder will be made, should it be a slip of the pen.
+pub fn say_missing_folder(file: &Path, console: &mut Console) {
+    if let Some(folder) = file.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.exists()) {
+        console.say(&format!("note: the folder {} is new", folder.display()));
+    }
 }
 
 /// Says why there is no session; the exit status.

@@ -76,6 +76,16 @@ fn a_reader_of_version_1_finds_the_picture() {
     for (a, b) in foreign.film.develop().pixels.iter().zip(&developed.pixels) {
         assert!(a[..3].iter().zip(b).all(|(a, b)| (a / b - 1.0).abs() < 1e-5));
     }
+    // A length of 0 is none; any other must be right. And nobody takes so many samples.
+    let mut changed = file[..5040 + 57 * 39 * 12].to_vec();
+    changed[40..52].fill(0);
+    for (length, is_sound) in [(0u32, true), (5, false), (57 * 39 * 12 + 1, false)] {
+        changed[32..36].copy_from_slice(&length.to_le_bytes());
+        assert_eq!(read(&changed).is_ok(), is_sound, "{length}");
+    }
+    changed[32..36].fill(0);
+    changed[8..16].copy_from_slice(&1e300f64.to_le_bytes());
+    assert!(read(&changed).unwrap_err().to_string().contains("no count"));
 }
 
 #[test]

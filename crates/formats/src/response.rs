@@ -18,6 +18,8 @@ pub struct ResponseCurve {
     pub irradiance: Vec<f32>,
     /// The brightness for each.
     pub brightness: Vec<f32>,
+    /// What is odd about it, each with its place, but can be shown all the same.
+    pub oddities: Vec<FormatError>,
 }
 
 /// Reads the curves for red, green and blue.
@@ -84,7 +86,8 @@ fn read_curve(text: &mut Text<'_>) -> Result<ResponseCurve, FormatError> {
     }
     let start = text.offset();
     let brightness = read_list(text, "a brightness from 0 to 1", false)?;
-    if brightness.len() != irradiance.len() || irradiance.first() == irradiance.last() {
+    let end = |value: Option<&(f32, usize)>| value.map(|(value, _)| *value);
+    if brightness.len() != irradiance.len() || end(irradiance.first()) == end(irradiance.last()) {
         return Err(text.error_saying(
             start,
             &format!(
@@ -94,7 +97,30 @@ fn read_curve(text: &mut Text<'_>) -> Result<ResponseCurve, FormatError> {
             &format!("{} of them", brightness.len()),
         ));
     }
-    Ok(ResponseCurve { name: words.join(" "), irradiance, brightness })
+    let oddities = oddities(text, &irradiance, &brightness);
+    let values = |list: Vec<(f32, usize)>| list.into_iter().map(|(value, _)| value).collect();
+    let name = words.join(" ");
+    Ok(ResponseCurve { name, irradiance: values(irradiance), brightness: values(brightness), oddities })
+}
+
+/// What no film or sensor does, and its user hardly means; the first of each kind.
+fn oddities(text: &Text<'_>, irradiance: &[(f32, usize)], brightness: &[(f32, usize)]) -> Vec<FormatError> {
+    let mut found = vec![];
+    let mut add = |at: usize, expected: &str, there: &str| found.push(text.error_saying(at, expected, there));
+    if let Some((black, at)) = brightness.first().filter(|(black, _)| *black > 0.0) {
+        add(*at, "brightnesses that begin at 0", &format!("{black}, which is shown for black"));
+    }
+    let falls = brightness.array_windows().find(|[(a, _), (b, _)]| b < a);
+    if let Some([(before, _), (after, at)]) = falls {
+        let there = format!("{after} after {before}, darker for more light");
+        add(*at, "brightnesses that do not decrease", &there);
+    }
+    let pairs = irradiance.array_windows().zip(brightness.array_windows());
+    let step = pairs.into_iter().find(|([(i, _), (j, _)], [(a, _), (b, _)])| i == j && a != b);
+    if let Some(([_, (twice, at)], _)) = step {
+        add(*at, "irradiances that increase", &format!("{twice} twice, with two brightnesses"));
+    }
+    found
 }
 
 /// Whether a list of that letter begins here: `I =` or `I=`.
@@ -108,21 +134,21 @@ fn at_list(text: &Text<'_>, letter: u8) -> bool {
     ahead.peek() == Some(b'=')
 }
 
-/// The numbers of a list, up to what is none.
-fn read_list(text: &mut Text<'_>, expected: &str, ascending: bool) -> Result<Vec<f32>, FormatError> {
+/// The numbers of a list, up to what is none, and where each stands.
+fn read_list(text: &mut Text<'_>, expected: &str, ascending: bool) -> Result<Vec<(f32, usize)>, FormatError> {
     text.advance();
     text.skip_blanks();
     text.advance();
     text.skip_space();
-    let mut values: Vec<f32> = vec![];
+    let mut values: Vec<(f32, usize)> = vec![];
     while text.peek().is_some_and(|b| b.is_ascii_digit() || matches!(b, b'+' | b'-' | b'.')) {
         let at = text.offset();
         let value = text.finite(expected)?;
-        let falls = ascending && values.last().is_some_and(|before| *before > value);
+        let falls = ascending && values.last().is_some_and(|(before, _)| *before > value);
         if !(0.0..=1.0).contains(&value) || falls {
             return Err(text.error_at(at, expected));
         }
-        values.push(value);
+        values.push((value, at));
         text.skip_space();
     }
     Ok(values)
@@ -157,6 +183,25 @@ mod tests {
         let plain = [".1", ".2", ".3"].map(|v| curve("x", &format!("0 {v} 1"))).concat();
         assert_eq!(read(plain.as_bytes()).unwrap().map(|c| c.brightness[1]), [0.1, 0.2, 0.3]);
         assert!(read((blue + &red).as_bytes()).unwrap_err().to_string().contains("2 of them"));
+    }
+
+    #[test]
+    fn what_no_film_does_is_told_with_its_place() {
+        for (values, says) in [
+            ("B = 0 .8 .4", "3:10: expected brightnesses that do not decrease, found 0.4 after 0.8"),
+            ("B = .3 .4 1", "3:5: expected brightnesses that begin at 0, found 0.3"),
+        ] {
+            let curves = read(format!("a\nI = 0 .5 1\n{values}").as_bytes()).unwrap();
+            let [oddity] = &curves[0].oddities[..] else { panic!("{:?}", curves[0].oddities) };
+            assert!(oddity.to_string().starts_with(says), "{oddity}");
+        }
+        let curves = read(b"a\nI = 0 .5 .5 1\nB = 0 .2 .4 1").unwrap();
+        let said: Vec<String> = curves[0].oddities.iter().map(ToString::to_string).collect();
+        assert_eq!(
+            said,
+            ["2:10: expected irradiances that increase, found 0.5 twice, with two brightnesses"]
+        );
+        assert!(read(curve("a", "0 .5 1").as_bytes()).unwrap()[0].oddities.is_empty());
     }
 
     #[test]

@@ -4,6 +4,7 @@
 use crate::LinearImage;
 use crate::white_balance::plain_rgb;
 use indigo_film::FirstHit;
+use std::fmt::Write as _;
 
 /// A channel of a layered EXR: its full name, and a value for each pixel, rows from top to bottom.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,14 +15,22 @@ pub struct Channel {
     pub values: Vec<f32>,
 }
 
-/// The picture's own channels, R, G, B and A.
-pub fn picture_channels(image: &LinearImage) -> Vec<Channel> {
-    channels(&image.pixels, ["R", "G", "B", "A"], |pixel| *pixel)
-}
-
 /// The picture's own colours, R, G and B.
 pub fn rgb_channels(image: &LinearImage) -> Vec<Channel> {
     channels(&image.pixels, ["R", "G", "B"], |[r, g, b, _]| [*r, *g, *b])
+}
+
+/// The picture's `foreground`: the light of all but the surroundings, and the part of each pixel that it covers, A. The colours
+/// are what the pixel gets of it, premultiplied as compositing programs have them: over another picture, they are added to
+/// 1 - A of that.
+pub fn foreground_channels(image: &LinearImage) -> Vec<Channel> {
+    let names = ["foreground.R", "foreground.G", "foreground.B", "foreground.A"];
+    channels(&image.pixels, names, |pixel| *pixel)
+}
+
+/// The picture's `background`: the light that the surroundings send straight into the camera.
+pub fn background_channels(image: &LinearImage) -> Vec<Channel> {
+    channels(&image.pixels, ["background.R", "background.G", "background.B"], |[r, g, b, _]| [*r, *g, *b])
 }
 
 /// The picture's `direct` light.
@@ -45,6 +54,25 @@ pub fn first_hit_channels(hits: &[FirstHit]) -> Vec<Channel> {
     all
 }
 
+/// A JSON object that tells the names of the numbers that a channel holds: `{"1":"floor","2":"ball"}`.
+pub fn manifest<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
+    let mut text = String::from("{");
+    for (i, name) in names.into_iter().enumerate() {
+        let comma = if i > 0 { "," } else { "" };
+        // Writing to a string cannot fail.
+        let _ = write!(text, "{comma}\"{}\":\"", i + 1);
+        for c in name.chars() {
+            let _ = match c {
+                '"' | '\\' => write!(text, "\\{c}"),
+                c if c < ' ' => write!(text, "\\u{:04x}", u32::from(c)),
+                c => write!(text, "{c}"),
+            };
+        }
+        text.push('"');
+    }
+    text + "}"
+}
+
 fn channels<T, const N: usize>(
     pixels: &[T],
     names: [&'static str; N],
@@ -58,4 +86,15 @@ fn channels<T, const N: usize>(
         }
     }
     channels
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_manifest_is_json_whatever_the_names_are() {
+        assert_eq!(manifest([]), "{}");
+        assert_eq!(manifest(["a", "b \"c\" \\ \n", "σ"]), r#"{"1":"a","2":"b \"c\" \\ \u000a","3":"σ"}"#);
+    }
 }

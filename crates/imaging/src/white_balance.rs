@@ -70,11 +70,6 @@ impl Matrix {
         Self(m.rows.map(|row| row.to_array().map(|v| v as f32)))
     }
 
-    /// All entries times a factor.
-    pub(crate) fn scaled(self, factor: f32) -> Self {
-        Self(self.0.map(|row| row.map(|v| v * factor)))
-    }
-
     /// The matrix times the first three components of a pixel.
     #[inline]
     pub(crate) fn apply(&self, p: &[f32; 4]) -> [f32; 3] {

@@ -129,7 +129,10 @@ fn the_reference_implementation_reads_our_layers() {
         })
         .collect();
     let pixels: Vec<[f32; 4]> = (0..35).map(|i| [1.0, 2.0, i as f32, 0.25]).collect();
-    let mut channels = layers::picture_channels(&LinearImage { width: 7, height: 5, pixels });
+    let image = LinearImage { width: 7, height: 5, pixels };
+    let mut channels = layers::rgb_channels(&image);
+    channels.extend(layers::foreground_channels(&image));
+    channels.extend(layers::background_channels(&image));
     channels.extend(layers::first_hit_channels(&hits));
     let bytes = exr::encode_layers([7, 5], channels.clone(), &Metadata::default(), Content::Luminances)
         .expect("an EXR");
@@ -145,7 +148,7 @@ fn the_reference_implementation_reads_our_layers() {
             (name, values.split(' ').map(|v| v.parse().expect("a number")).collect())
         })
         .collect();
-    assert_eq!(read.len(), 13);
+    assert_eq!(read.len(), 19);
     for channel in &channels {
         assert_eq!(read[channel.name], channel.values, "{}", channel.name);
     }

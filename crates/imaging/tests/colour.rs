@@ -2,7 +2,7 @@
 //! tables.
 
 use indigo_film::{FilmSize, FilmState, LayerKind};
-use indigo_imaging::{Exposure, PictureSettings, ToneMapping, WhiteBalance, develop};
+use indigo_imaging::{Exposure, PictureSettings, Response, ToneMapping, WhiteBalance, develop};
 
 /// π · (r/d)² · t = 2 with these.
 const EXPOSURE: Exposure = Exposure {
@@ -39,6 +39,18 @@ fn assert_near(got: [f32; 3], want: [f64; 3], tolerance: f64) {
     for (g, w) in got.into_iter().zip(want) {
         assert!((f64::from(g) - w).abs() <= tolerance, "{got:?} instead of {want:?}");
     }
+}
+
+/// However much light is let in, grey ends as white, and never as what infinities leave of each other.
+#[test]
+fn more_light_than_numbers_hold_is_white() {
+    let chart = [[0.9504559271, 1.0, 1.0890577508], [0.0; 3]];
+    for ev_adjust in [130.0, 200.0, 1e38] {
+        let response = std::sync::Arc::new(Response::display());
+        let camera = ToneMapping::Camera { response, ev_adjust, film_iso: 100.0 };
+        assert_eq!(shown(&chart, &settings(camera))[0], [1.0; 3], "{ev_adjust}");
+    }
+    assert_eq!(shown(&chart, &settings(ToneMapping::Linear { scale: 1e39 }))[0], [1.0; 3]);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! What the pixels of a scene show besides light, found when it is first asked for.
 
 use indigo_film::FirstHit;
-use indigo_scene::Scene;
+use indigo_scene::{Names, Scene};
 use indigo_transport::first_hit::FirstHits;
 use rayon::prelude::*;
 use std::sync::{Arc, OnceLock};
@@ -16,6 +16,11 @@ impl SceneFirstHits {
     /// Of a scene; nothing is done yet.
     pub fn of(scene: Arc<Scene>) -> Self {
         Self { scene, found: OnceLock::new() }
+    }
+
+    /// The names of the objects and materials whose numbers are in them.
+    pub fn names(&self) -> &Names {
+        &self.scene.names
     }
 
     /// One for each output pixel, rows from top to bottom; nothing beyond the region that is rendered. The first call

@@ -9,13 +9,13 @@ use crate::atomic::{check_writable, write_atomically};
 use crate::denoise::{DenoiseError, Denoiser};
 use crate::first_hits::SceneFirstHits;
 use crate::pool::with_jobs;
-use indigo_film::{FilmRecord, FilmState, Filter, FirstHit, SavedFilm, XyzImage, igi};
+use indigo_film::{FilmRecord, FilmState, Filter, SavedFilm, XyzImage, igi};
 use indigo_imaging::{
     Content, Exposure, ImagingError, LinearImage, Metadata, Picture, PictureSettings, ToneMapping,
     develop_image, exr, from_linear, layers, linear_picture, on_sensor, png, untonemapped,
 };
 use indigo_scene::{Development, Scene};
-use indigo_transport::driver::is_indirect;
+use indigo_transport::driver::{is_background, is_indirect};
 use indigo_transport::strategies::Strategies;
 use std::fs::File;
 use std::io::{BufWriter, Write as _};
@@ -104,7 +104,7 @@ impl SaveJob {
         let metadata = metadata::of(self, saved);
         self.write_pictures(&image, &metadata, &self.paths.pictures(), &mut all);
         if let (true, Some(hits)) = (output.layers_exr, &self.first_hits) {
-            all.add(self.write_layers(&image, &saved.film, hits.get(), &metadata));
+            all.add(self.write_layers(&image, &saved.film, hits, &metadata));
         }
         if let Some(denoiser) = self.active_denoiser() {
             match self.denoised(&saved.film.develop(), denoiser) {
@@ -152,24 +152,27 @@ impl SaveJob {
         &self,
         image: &XyzImage,
         film: &FilmState,
-        hits: &[FirstHit],
+        hits: &SceneFirstHits,
         metadata: &Metadata,
     ) -> Result<PathBuf, SaveError> {
         let settings = &self.development.picture;
-        let mut linear = linear_picture(image, settings);
-        let (mut channels, content);
-        if settings.foreground_alpha {
-            (channels, content) = (layers::rgb_channels(&linear), Content::Coverage);
-        } else {
+        let linear = linear_picture(image, settings);
+        let mut channels = layers::rgb_channels(&linear);
+        if !settings.foreground_alpha {
             // Not the film's coverage: what light paths and Markov chains add to a film has none.
-            linear.pixels.iter_mut().zip(hits).for_each(|(pixel, hit)| pixel[3] = hit.coverage);
-            (channels, content) = (layers::picture_channels(&linear), Content::Luminances);
+            let mut foreground = self.part(film, |layer| !is_background(layer));
+            foreground.pixels.iter_mut().zip(hits.get()).for_each(|(pixel, hit)| pixel[3] = hit.coverage);
+            channels.extend(layers::foreground_channels(&foreground));
+            channels.extend(layers::background_channels(&self.part(film, is_background)));
             channels.extend(layers::direct_channels(&self.part(film, |layer| !is_indirect(layer))));
             channels.extend(layers::indirect_channels(&self.part(film, is_indirect)));
         }
-        channels.extend(layers::first_hit_channels(hits));
-        let bytes =
-            exr::encode_layers([linear.width, linear.height], channels, &said(metadata, content), content)?;
+        channels.extend(layers::first_hit_channels(hits.get()));
+        let content = if settings.foreground_alpha { Content::Coverage } else { Content::Luminances };
+        let mut metadata = said(metadata, content);
+        metadata.set("object_names", layers::manifest(hits.names().objects.iter().map(|name| &**name)));
+        metadata.set("material_names", layers::manifest(hits.names().materials.iter().map(|name| &**name)));
+        let bytes = exr::encode_layers([linear.width, linear.height], channels, &metadata, content)?;
         write(&self.paths.layers_exr(), &bytes)
     }
 

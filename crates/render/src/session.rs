@@ -15,6 +15,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
+/// No epoch need be shorter: nobody waits for less than a blink.
+const SHORTEST_EPOCH: Duration = Duration::from_millis(50);
+
 /// Why a session ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum HaltReason {
@@ -226,7 +229,7 @@ impl Session {
             self.reason = Some(HaltReason::Time);
             self.shared.stop();
         }
-        if self.last_epoch.elapsed() >= self.epoch {
+        if self.last_epoch.elapsed() >= self.epoch_now() {
             self.last_epoch = Instant::now();
             self.shared.epoch.fetch_add(1, Ordering::Relaxed);
             if let Some(wanted) = self.halt.relative_error
@@ -236,6 +239,15 @@ impl Session {
                 self.reason = Some(HaltReason::Error);
                 self.shared.stop();
             }
+        }
+    }
+
+    /// How long this epoch is: where an error is looked for, no more than a quarter of the time so far, so that a picture
+    /// that is soon good enough soon ends.
+    fn epoch_now(&self) -> Duration {
+        match self.halt.relative_error {
+            Some(_) => self.epoch.min((self.elapsed() / 4).max(SHORTEST_EPOCH)),
+            None => self.epoch,
         }
     }
 
@@ -351,7 +363,7 @@ fn check_memory(size: FilmSize, needed: u64, available: Option<u64>) -> Result<(
 fn unit_limit(driver: &Driver, halt: &Halt, first: u64, samples_before: u64) -> u64 {
     halt.samples_per_pixel.map_or(u64::MAX, |passes| {
         let wanted = u128::from(driver.pixels()) * u128::from(passes);
-        first.saturating_add(driver.units_of(wanted.saturating_sub(samples_before.into())))
+        first.saturating_add(driver.units_of(wanted.saturating_sub(samples_before.into()), first))
     })
 }
 

@@ -17,7 +17,7 @@ mod settings;
 pub use contents::{Contents, LoadedContents, load_contents};
 pub use load::{LoadOptions, Loaded, LoadedDevelopment, Override, load, load_development};
 pub use scene::{
-    DIFFRACTION_OF_RAYS, Development, FOREGROUND_ALPHA, FilmSettings, Identity, MetropolisSettings,
+    DIFFRACTION_OF_RAYS, Development, FOREGROUND_ALPHA, FilmSettings, Identity, MetropolisSettings, Names,
     OutputSettings, Scene, SceneStats, TransportSettings,
 };
 pub use settings::{Listed, Origin, Settings};

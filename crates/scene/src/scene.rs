@@ -39,6 +39,8 @@ pub struct Scene {
     pub has_unseen_surfaces: bool,
     /// Floor under the distance by which rays start off a surface, metres.
     pub nudge_m: Real,
+    /// What objects and materials are called.
+    pub names: Names,
     /// How light is transported.
     pub transport: TransportSettings,
     /// The film.
@@ -51,6 +53,17 @@ pub struct Scene {
     pub output: OutputSettings,
     /// What films of this scene have in common.
     pub identity: Identity,
+}
+
+/// What objects and materials are called, in the order of their numbers.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Names {
+    /// Of a mesh its name, of other objects their element's. First come models, then spheres, planes, mesh lights and rectangle lights,
+    /// each in the order of the scene.
+    pub objects: Vec<String>,
+    /// In the order in which objects use them. A material with textures is there once for each arrangement of uv sets;
+    /// what scatters nothing, as rectangle lights are made of, is called `black`.
+    pub materials: Vec<String>,
 }
 
 /// The name of the setting of an [`Identity`] that is `true` where diffraction deflects rays.

@@ -90,13 +90,13 @@ pub static FLAGS: &[Flag] = &[
         "halterror",
         Some("E"),
         Action::HaltError,
-        "Stop when the picture's relative error is estimated to be E or less: the root mean square of the luminance's error over its mean. 0.01 is hardly visible. The true error is at most 1.2 times the estimate in 95 of 100 runs, if the light is not in a few pixels. Takes the memory of two more films.",
+        "Stop when the picture's relative error is estimated to be E or less: the root mean square of the luminance's error over its mean. 0.01 is hardly visible. The true error is at most 1.2 times the estimate in 95 of 100 runs, if the light is not in a few pixels. It is estimated after a quarter more of the time each, and each second at least. Takes the memory of two more films.",
     ),
     flag(
         "o",
         Some("PATH"),
         Action::Output,
-        "Write the picture to PATH (.png, which may be left out); other files take the same stem. Without it: renders/im_<UTC time>_<scene>.png.",
+        "Write the picture to PATH (.png, which may be left out); other files take the same stem. Folders that are missing are made. Without it: renders/im_<UTC time>_<scene>.png.",
     ),
     flag(
         "r",
@@ -108,7 +108,7 @@ pub static FLAGS: &[Flag] = &[
         "layers",
         None,
         Action::SwitchOn("-layers", "save_layers_exr"),
-        "Also save an EXR with layers: the picture, albedo, normal, depth, numbers of objects and materials.",
+        "Also save an EXR with layers: the picture, foreground and background, direct and indirect light, albedo, normal, depth, numbers of objects and materials.",
     ),
     flag(
         "denoise",

@@ -37,6 +37,14 @@ fn mistakes_get_a_helpful_answer() {
     assert!(error(&["--merge", "a.igi", "b.igi", "-o", "a.igs"]).contains("end with .igi"));
     assert!(error(&["--tonemap", "a.igs", "a.igi"]).contains("PICTURE.png"));
     assert!(error(&["--tonemap", "a.igs", "a.igi", "b.png", "-o", "c.png"]).contains("third file"));
+    for option in [&["-haltspp", "4"][..], &["-r", "f.igi"], &["-seed", "1"], &["-t", "2"], &["--check"]] {
+        let words = [&["--tonemap", "s.igs", "f.igi", "x.png"], option].concat();
+        assert!(error(&words).contains(&format!("{} has no part in -tonemap", option[0].replace("--", "-"))));
+    }
+    assert!(
+        error(&["--merge", "a.igi", "b.igi", "-o", "c.igi", "-denoise"]).contains("-denoise has no part")
+    );
+    assert!(parsed(&["--tonemap", "s.igs", "f.igi", "x.png", "-denoise", "-layers", "-json"]).is_ok());
     assert_eq!(error(&["--check=1"]), "-check takes no value");
     assert_eq!(error(&["-n", "m"]), "-n is not in this version yet");
     assert!(error(&["-seed", "-3"]).contains("whole number"));

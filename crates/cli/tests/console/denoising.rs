@@ -154,21 +154,47 @@ fn layers_are_saved_where_they_are_asked_for() {
     }
 }
 
-/// Whatever samples the light: the ball covers the middle and nothing covers the corners.
+/// Whatever samples the light: the ball covers the middle and nothing covers the corners, and the parts make up the whole.
 #[test]
-fn layers_have_the_coverage_of_the_scene() {
-    for metropolis in ["false", "true"] {
+fn layers_are_told_apart_in_every_mode() {
+    for mode in [
+        "<metropolis>false</metropolis><bidirectional>false<",
+        "<metropolis>false</metropolis><bidirectional>true<",
+        "<metropolis>true</metropolis><bidirectional>false<",
+        "<metropolis>false</metropolis><hybrid>true</hybrid><bidirectional>true<",
+    ] {
         let bench = Workbench::new(&format!("{QUIET}<save_layers_exr>true</save_layers_exr>"));
         let text = std::fs::read_to_string(bench.path("scene.igs")).expect("the scene");
-        bench.write("scene.igs", &text.replace("<metropolis>false", &format!("<metropolis>{metropolis}")));
+        let text = text.replace("<metropolis>false</metropolis><bidirectional>false<", mode);
+        bench.write("scene.igs", &text);
         let ran = bench.run(&["scene.igs", "-haltspp", "1", "-o", "a.png"]);
         assert_eq!(ran.status, Some(0), "{ran:?}");
         let image =
             exr::prelude::read_first_flat_layer_from_file(bench.path("a_layers.exr")).expect("an EXR");
-        let alpha = image.layer_data.channel_data.list.iter().find(|c| c.name.eq("A")).expect("coverage");
-        let alpha: Vec<f32> = alpha.sample_data.values_as_f32().collect();
-        assert_eq!((alpha[15 * 40 + 20], alpha[0]), (1.0, 0.0), "metropolis {metropolis}");
+        let channel = |name: &str| -> Vec<f32> {
+            let found = image.layer_data.channel_data.list.iter().find(|c| c.name.eq(name));
+            found.unwrap_or_else(|| panic!("{name}")).sample_data.values_as_f32().collect()
+        };
+        let (middle, corner) = (15 * 40 + 20, 0);
+        let alpha = channel("foreground.A");
+        assert_eq!((alpha[middle], alpha[corner]), (1.0, 0.0), "{mode}");
         assert!(alpha.iter().any(|a| (0.1..0.9).contains(a)), "no edge is smooth");
+        let names = ["G", "foreground.G", "background.G", "direct.G", "indirect.G"];
+        let [whole, foreground, background, direct, indirect] = names.map(channel);
+        assert!(foreground[corner] == 0.0 && background[middle] == 0.0, "{mode}");
+        assert!(foreground[middle] > 0.0 && background[corner] > 0.0, "{mode}");
+        for i in 0..whole.len() {
+            let near = |a: f32| (a - whole[i]).abs() <= 1e-4 * whole[i].abs() + 1e-3;
+            assert!(
+                near(foreground[i] + background[i]) && near(direct[i] + indirect[i]),
+                "{mode}, pixel {i}"
+            );
+        }
+        for (key, json) in [("object_names", r#"{"1":"sphere"}"#), ("material_names", r#"{"1":"grey"}"#)] {
+            let key = exr::prelude::Text::from(&*format!("indigo.{key}"));
+            let told = format!("{:?}", image.layer_data.attributes.other.get(&key));
+            assert!(told.replace('\\', "").contains(json), "{told}");
+        }
     }
 }
 

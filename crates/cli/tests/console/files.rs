@@ -251,6 +251,9 @@ fn lines_of_progress_come_as_often_as_was_asked_for() {
     assert_eq!(lines("60"), 2);
     let often = lines("0.1");
     assert!((6..=20).contains(&often), "{often} lines");
+    // And no oftener than can be read: ten a second.
+    let flood = lines("1e-6");
+    assert!(flood <= 20, "{flood} lines");
 }
 
 fn image(bench: &Workbench, name: &str) -> indigo_formats::image::Pixels {

@@ -197,6 +197,40 @@ fn masks_and_light_are_not_taken_for_each_other() {
     }
 }
 
+/// What is named by mistake is told before a scene is read that may take its time, and without rendering, too.
+#[test]
+fn a_file_that_is_no_film_is_told_before_the_scene_is_read() {
+    let bench = Workbench::new(SAVED);
+    for (film, says) in
+        [("scene.igs", "this is not an Indigo image (.igi)"), ("none.igi", "cannot read none.igi")]
+    {
+        for more in ["-haltspp=1", "--check"] {
+            let ran = bench.run(&["missing.igs", "-r", film, more]);
+            assert!(ran.status == Some(1) && ran.stderr.contains(says), "{ran:?}");
+            assert!(!ran.stderr.contains("missing.igs"), "{}", ran.stderr);
+        }
+    }
+}
+
+/// A folder of a name that is mistyped is made, but not without a word.
+#[test]
+fn new_folders_are_told() {
+    let bench = Workbench::new(SAVED);
+    ok(&bench.run(&["scene.igs", "-haltspp", "1", "-o", "1.png", "-seed", "1"]));
+    ok(&bench.run(&["scene.igs", "-haltspp", "1", "-o", "2.png", "-seed", "2"]));
+    for (arguments, folder) in [
+        (&["--merge", "1.igi", "2.igi", "-o", "a/sum.igi"][..], "a"),
+        (&["--tonemap", "scene.igs", "1.igi", "b/c/x.png"], "b/c"),
+        (&["scene.igs", "-haltspp", "1", "-o", "d/x.png"], "d"),
+    ] {
+        let says = format!("note: the folder {folder} is new");
+        let ran = bench.run(arguments);
+        ok(&ran);
+        assert!(ran.stderr.contains(&says), "{}", ran.stderr);
+        assert!(!bench.run(arguments).stderr.contains(&says));
+    }
+}
+
 /// Of two developments of one film the pictures tell which is which.
 #[test]
 fn pictures_tell_how_they_were_developed() {
@@ -307,6 +341,12 @@ fn a_camera_develops_by_its_response_and_speed() {
     assert!(pictures.iter().all(|p| mean(p) > 5 && mean(p) < 250), "not the range of these curves");
     pictures.dedup();
     assert_eq!(pictures.len(), 4);
+    bench.write("odd.txt", "dim\nI = 0 .5 1\nB = 0 1 .5\n");
+    let text = std::fs::read_to_string(bench.path("camera.igs")).expect("the scene");
+    bench.write("odd.igs", &text.replace(shipped, "odd.txt"));
+    let ran = bench.run(&["odd.igs", "--check"]);
+    let says = "odd.txt:3:9: expected brightnesses that do not decrease, found 0.5 after 1";
+    assert!(ran.status == Some(0) && ran.stderr.matches(says).count() == 1, "{ran:?}");
     bench.write("broken.txt", "dim\nI = 0 1\nB = 0 2\n");
     let scene = std::fs::read_to_string(bench.path("camera.igs")).expect("the scene");
     for (path, says) in [("broken.txt", "3:7: expected a brightness"), ("none.txt", "cannot read none.txt")] {

@@ -17,7 +17,7 @@ pub(super) fn read_version_1(bytes: &mut Bytes<'_>) -> Result<SavedFilm, IgiErro
     const WHAT: &str = "the header";
     let samples = bytes.f64(WHAT)?;
     let (width, height, factor) = (bytes.u32(WHAT)?, bytes.u32(WHAT)?, bytes.u32(WHAT)?);
-    let (is_packed, _length, colours) = (bytes.u32(WHAT)?, bytes.u32(WHAT)?, bytes.u32(WHAT)?);
+    let (is_packed, length, colours) = (bytes.u32(WHAT)?, bytes.u32(WHAT)?, bytes.u32(WHAT)?);
     if is_packed != 0 {
         return Err(IgiError::Malformed("compressed images of version 1 cannot be read"));
     }
@@ -25,6 +25,10 @@ pub(super) fn read_version_1(bytes: &mut Bytes<'_>) -> Result<SavedFilm, IgiErro
         return Err(IgiError::Malformed("the image is not in XYZ"));
     }
     let size = internal_size(width, height, factor)?;
+    // What 31 bits cannot say is left at 0.
+    if length != 0 && length as usize != size.internal_pixels() * 12 {
+        return Err(IgiError::Malformed("the length of the image is not that of its width and height"));
+    }
     bytes.take(IMAGE - super::PADDING, WHAT)?;
     let mut film = empty(size, samples, bytes.0.len() / 12)?;
     add_image(&mut film, bytes, size.internal_width(), [0, 0])?;
@@ -80,8 +84,9 @@ fn add_layer(film: &mut FilmState, bytes: &mut Bytes<'_>) -> Result<(), IgiError
 /// A film without light whose sums are divided by the samples per output pixel. `available` is the number of
 /// pixels that the file can hold, at least as many as it must.
 fn empty(size: FilmSize, samples: f64, available: usize) -> Result<FilmState, IgiError> {
-    if !samples.is_finite() || samples < 0.0 {
-        return Err(IgiError::Malformed("the number of samples is negative or not finite"));
+    // Programs count samples by 64 bits; the bound keeps light from vanishing by a damaged number.
+    if !(0.0..=u64::MAX as f64).contains(&samples) {
+        return Err(IgiError::Malformed("the number of samples is no count"));
     }
     if available < size.internal_pixels() {
         return Err(IgiError::Truncated("the image"));

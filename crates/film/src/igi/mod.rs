@@ -50,7 +50,7 @@ const MAX_LAYERS: usize = 16;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum IgiError {
     /// The first bytes are others.
-    #[error("this is not an Indigo image")]
+    #[error("this is not an Indigo image (.igi), as save_igi saves")]
     NotIgi,
     /// The file ends early.
     #[error("the file ends within {0}")]

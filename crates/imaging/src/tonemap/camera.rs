@@ -125,6 +125,8 @@ impl Curve {
 /// The operator for one picture.
 pub(crate) struct Camera {
     matrix: Matrix,
+    /// By itself: a factor beyond all numbers would leave nothing of the differences that the matrix takes.
+    factor: f32,
     response: Arc<Response>,
 }
 
@@ -136,13 +138,17 @@ impl Camera {
         settings: &PictureSettings,
     ) -> Self {
         let factor = settings.exposure.lux_seconds_per_nit() * film_iso / SATURATION * ev_adjust.exp2();
-        Self { matrix: settings.white_balance.to_rgb().scaled(factor as f32), response: Arc::clone(response) }
+        Self {
+            matrix: settings.white_balance.to_rgb(),
+            factor: factor as f32,
+            response: Arc::clone(response),
+        }
     }
 
     pub(super) fn map_row(&self, from: &[[f32; 4]], to: &mut [[f32; 4]]) {
         let response = &*self.response;
         for (xyz, out) in from.iter().zip(to) {
-            let rgb = self.matrix.apply(xyz);
+            let rgb = self.matrix.apply(xyz).map(|v| v * self.factor);
             let [r, g, b] = std::array::from_fn(|c| response.decoded(response.curves[c].eval(rgb[c])));
             *out = [r, g, b, xyz[3]];
         }

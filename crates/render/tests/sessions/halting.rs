@@ -58,6 +58,16 @@ fn at_least_the_samples_that_were_asked_for() {
     }
 }
 
+/// A picture that is soon good enough soon ends, however seldom workers hand over otherwise.
+#[test]
+fn an_error_is_looked_for_soon() {
+    let halt = Halt { relative_error: Some(0.5), ..ENDLESS };
+    let options = Options { halt, epoch: Duration::from_hours(1), deterministic: false, ..options(2, 1) };
+    let (_, reason, progress) = run(&small_scene(1, ""), &options);
+    assert_eq!(reason, HaltReason::Error);
+    assert!(progress.relative_error.is_some_and(|error| error <= 0.5));
+}
+
 /// No machine has so many threads, and no driver so much to do at once; it must neither fail nor take long.
 #[test]
 fn a_thousand_threads_start_and_stop() {

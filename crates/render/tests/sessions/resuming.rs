@@ -155,6 +155,20 @@ fn chains_that_go_on_use_fresh_randomness() {
     assert!(repeated.count() < a.sums.len() / 2, "the second half is the first one again");
 }
 
+/// Wherever a film left off: in the midst of a pass, whose tiles are of different sizes, too.
+#[test]
+fn a_halt_gives_no_fewer_samples_when_it_is_gone_on_to() {
+    let scene = scene([false, false, true]);
+    let mut film = render(&scene, &options(2, 1));
+    for wanted in [2, 3, 5, 9, 16] {
+        film = go_on(&scene, &options(2, wanted), &film);
+        let found = film.film.samples_per_pixel();
+        // No more than a pair of units above.
+        let most = wanted as f64 + f64::from(2048 + 1024) / f64::from(48 * 48);
+        assert!((wanted as f64..=most).contains(&found), "{found} instead of {wanted}");
+    }
+}
+
 #[test]
 fn a_film_of_another_picture_is_refused_with_all_differences() {
     let (film, ball) = (render(&small_scene(1, ""), &options(1, 1)), scene([false; 3]));

@@ -59,6 +59,8 @@ pub(super) fn parameters(
     let pupil = pupil(node, &aperture, diffraction, context);
     if ThinLens::new(&lens).is_none() {
         refuse_directions(node, context.sink);
+        // Nothing is wrong with the rest, which nobody will read.
+        node.disregard();
         return None;
     }
     Some(Unfocused { lens, aperture, pupil, diffraction, autofocus })

@@ -31,6 +31,7 @@ pub(super) struct Geometry {
     /// The camera's position: the origin of render space.
     origin: Vec3d,
     objects: Vec<Object>,
+    names: Vec<String>,
     first_slot: Vec<u32>,
     slots: Vec<u32>,
     /// For each object the light that it is.
@@ -39,17 +40,19 @@ pub(super) struct Geometry {
 
 impl Geometry {
     pub(super) fn new(origin: Vec3d) -> Self {
-        Self { origin, objects: vec![], first_slot: vec![], slots: vec![], lights: vec![] }
+        Self { origin, objects: vec![], names: vec![], first_slot: vec![], slots: vec![], lights: vec![] }
     }
 
     /// Adds an object given in the world, and returns its number.
     pub(super) fn add(
         &mut self,
         object: Object,
+        name: &str,
         slots: impl IntoIterator<Item = u32>,
         light: Option<u32>,
     ) -> u32 {
         self.objects.push(self.to_render_space(object));
+        self.names.push(name.to_owned());
         self.first_slot.push(self.slots.len() as u32);
         self.slots.extend(slots);
         self.lights.push(light);
@@ -172,7 +175,7 @@ impl Geometry {
         self.refuse_far(&object, 0.0, node.span, context.sink);
         let name = node.text("material_name");
         let material = materials.get(&name.value, name.span, UvSets::Natural, context);
-        self.add(object, [material], None);
+        self.add(object, node.block.name, [material], None);
     }
 
     /// Adds an instance of a mesh; the number of the object and of its mesh, or `None` after
@@ -198,7 +201,7 @@ impl Geometry {
         if light.is_none() {
             self.warn_of_rounding(&object, mesh.reach, node.span, context.sink);
         }
-        Some((self.add(object, slots, light), id))
+        Some((self.add(object, &name.value, slots, light), id))
     }
 
     /// The objects, for building.
@@ -216,8 +219,8 @@ impl Geometry {
         self.lights.iter().copied()
     }
 
-    /// First slot of each object, and the material of each slot.
-    pub(super) fn into_slots(self) -> (Vec<u32>, Vec<u32>) {
-        (self.first_slot, self.slots)
+    /// First slot of each object, the material of each slot, and the objects' names.
+    pub(super) fn into_slots(self) -> (Vec<u32>, Vec<u32>, Vec<String>) {
+        (self.first_slot, self.slots, self.names)
     }
 }

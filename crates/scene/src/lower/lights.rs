@@ -65,7 +65,7 @@ impl Lights {
             let transform = Transform::translation(node.vec3("pos").into());
             let placed = Object::Mesh { mesh, transform };
             geometry.refuse_far(&placed, node.real("width").max(node.real("height")) / 2.0, node.span, sink);
-            let object = geometry.add(placed, [materials.black()], Some(light));
+            let object = geometry.add(placed, node.block.name, [materials.black()], Some(light));
             let shape = Shape::new(geometry.object(object), meshes.triangles(mesh));
             shape.report_rounding(node.span, sink);
             self.lamps.push(lamps::rectangle_light(node, &shape, sink));

@@ -30,6 +30,8 @@ type Key = (String, Option<Vec<(String, u32)>>);
 pub(super) struct MaterialTable<'a> {
     names: Names<'a>,
     materials: Vec<Material>,
+    /// What each of them is called.
+    called: Vec<String>,
     textures: TextureTable,
     media: MediumTable<'a>,
     /// Materials with textures.
@@ -48,6 +50,7 @@ impl<'a> MaterialTable<'a> {
         Self {
             names: Names::new(root, "material", sink),
             materials: vec![],
+            called: vec![],
             textures: TextureTable::default(),
             media: MediumTable::new(root, sink),
             textured: HashMap::new(),
@@ -88,7 +91,7 @@ impl<'a> MaterialTable<'a> {
         let material = Material::build(kind, &mut resources);
         let uses_textures = resources.uses_textures;
         self.open.pop();
-        let id = self.add(material);
+        let id = self.add(material, name);
         if uses_textures {
             self.textured.insert(key, id);
         } else {
@@ -114,8 +117,9 @@ impl<'a> MaterialTable<'a> {
         true
     }
 
-    fn add(&mut self, material: Material) -> MaterialId {
+    fn add(&mut self, material: Material, name: &str) -> MaterialId {
         self.materials.push(material);
+        self.called.push(name.to_owned());
         (self.materials.len() - 1) as MaterialId
     }
 
@@ -147,7 +151,7 @@ impl<'a> MaterialTable<'a> {
         if let Some(id) = self.black {
             return id;
         }
-        let id = self.add(Material::black());
+        let id = self.add(Material::black(), "black");
         self.black = Some(id);
         id
     }
@@ -198,6 +202,11 @@ impl<'a> MaterialTable<'a> {
         let asked_for = |n: &&Node| self.asked_for.contains(&n.text("name").value);
         self.names.nodes().filter(|n| !asked_for(n)).for_each(Node::disregard);
         self.media.disregard_unused();
+    }
+
+    /// The names of materials in the order of their numbers.
+    pub(super) fn take_names(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.called)
     }
 
     /// Materials, textures and media in the order of their numbers.

@@ -20,7 +20,9 @@ mod textures;
 
 use crate::codes;
 use crate::load::LoadOptions;
-use crate::scene::{Development, Identity, MetropolisSettings, OutputSettings, Scene, TransportSettings};
+use crate::scene::{
+    Development, Identity, MetropolisSettings, Names, OutputSettings, Scene, TransportSettings,
+};
 use crate::settings::Settings;
 use geometry::Geometry;
 use indigo_decl::{Node, ResolveError, Resolved, Resolver, report_unread};
@@ -175,7 +177,8 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
     };
     let lights = lights.into_table(&geometry, &accel);
     let lamps: Vec<Option<u32>> = geometry.lights().collect();
-    let (first_slot, slots) = geometry.into_slots();
+    let (first_slot, slots, objects) = geometry.into_slots();
+    let names = Names { objects, materials: materials.take_names() };
     let (materials, textures, media) = materials.into_arenas();
     let is_unseen = |at: &SurfacePoint| {
         let slot = first_slot[at.object as usize] + at.material_slot;
@@ -199,6 +202,7 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
         first_slot,
         slots,
         nudge_m: settings.real("ray_origin_nudge_distance") as indigo_math::Real,
+        names,
         transport,
         film: film?,
         picture,

@@ -222,6 +222,14 @@ fn response(camera: &Node, context: &mut Context) -> Option<Response> {
         context.sink.push(Diagnostic::error(codes::BAD_FILE, path.span, message));
     });
     let curves = curves.ok()?;
+    // One curve may serve all three colours.
+    let mut oddities: Vec<_> =
+        curves.iter().flat_map(|curve| &curve.oddities).map(ToString::to_string).collect();
+    oddities.dedup();
+    for oddity in oddities {
+        let message = format!("{}:{oddity}", found.path);
+        context.sink.push(Diagnostic::warning(codes::FILE_NOTE, path.span, message));
+    }
     // What was read has been checked for all that is asked of curves here.
     Response::new([0, 1, 2].map(|c: usize| (&*curves[c].irradiance, &*curves[c].brightness)))
         .map(|response| response.named(&path.value))

@@ -73,7 +73,10 @@ fn numbers_that_make_no_space() {
     );
     let camera = CAMERA.replace("<up>0 0 1", "<up>0 3 0");
     let column = camera.find("0 3 0").unwrap() + 1;
-    assert_eq!(found(&camera), [format!("{LINE}:{column}:E0304")]);
+    let rest = "<white_balance>D50</white_balance><exposure_duration>1</exposure_duration></camera>";
+    for camera in [&camera, &camera.replace("</camera>", rest)] {
+        assert_eq!(found(camera), [format!("{LINE}:{column}:E0304")]);
+    }
 }
 
 #[test]
@@ -92,6 +95,16 @@ fn expect_aperture(shape: &str, at: &str, code: &str) {
     let camera = CAMERA.replace("</camera>", &format!("<aperture_shape>{shape}</aperture_shape></camera>"));
     let column = camera.find(at).expect("the text is in the camera") + 1;
     assert_eq!(found(&camera), [format!("{LINE}:{column}:{code}")], "{shape}");
+}
+
+/// An exporter may write a path that names nothing: that is none where none is needed, and one error where one is.
+#[test]
+fn empty_paths() {
+    let with = |more: &str| CAMERA.replace("</camera>", &format!("{more}</camera>"));
+    assert_eq!(found(&with("<obstacle_map></obstacle_map>")), [""; 0]);
+    let image = with("<aperture_shape><image><path></path></image></aperture_shape>");
+    let found = found(&image);
+    assert!(found.len() == 1 && found[0].ends_with(":E0202"), "{found:?}");
 }
 
 #[test]

@@ -3,12 +3,15 @@
 //! A pass gives each output pixel one sample; a unit of work is a tile of a pass. What a sample is
 //! depends on the seed, its pixel and its number alone, never on the unit or the thread.
 
+use super::Layers;
 use super::region::Region;
 use crate::sampler::{Block, PrimarySample, SobolSample};
 use crate::technique::{Events, Tracer};
 use indigo_film::{FilmDelta, FilmFilter};
 use indigo_math::{Float, Real, Vec2, rng};
 use indigo_scene::Scene;
+use indigo_spectrum::SampledSpectrum;
+use std::ops::Range;
 
 /// Side of a tile in output pixels: a unit of about a millisecond, whose rays stay together.
 const TILE: u32 = 32;
@@ -22,17 +25,15 @@ pub struct Independent {
     tiles: [u32; 2],
     events: Events,
     is_bidirectional: bool,
-    /// The film's first layer for direct and for indirect light, which may be the same: that of camera samples, which
-    /// that of splats follows.
-    layers: [usize; 2],
+    /// The film's layers, the first ones of it.
+    layers: Layers,
     /// Whether every other round through the internal pixels is independent of the one before.
     pub(super) is_halved: bool,
 }
 
 impl Independent {
-    /// For a scene, the seed of all its randomness, the paths to render, and whether indirect light has layers of its own
-    /// behind those of direct light. Its layers are the film's first.
-    pub(super) fn new(scene: &Scene, seed: u64, events: Events, is_split: bool) -> Self {
+    /// For a scene, the seed of all its randomness, the paths to render, and the film's layers for them.
+    pub(super) fn new(scene: &Scene, seed: u64, events: Events, layers: Layers) -> Self {
         let region = Region::of(scene);
         let tiles = region.ends.map(|[lo, hi]| (hi - lo).div_ceil(TILE));
         Self {
@@ -42,7 +43,7 @@ impl Independent {
             tiles,
             events,
             is_bidirectional: scene.transport.bidirectional,
-            layers: [0, if is_split { 1 + usize::from(scene.transport.bidirectional) } else { 0 }],
+            layers,
             is_halved: false,
         }
     }
@@ -86,21 +87,30 @@ impl Independent {
         tracer: &mut Tracer,
         delta: &mut FilmDelta,
     ) -> u64 {
-        let (pass, tile) = (unit / self.units_per_pass(), (unit % self.units_per_pass()) as u32);
+        let pass = unit / self.units_per_pass();
+        let [columns, rows] = self.tile(unit);
+        for y in rows {
+            for x in columns.clone() {
+                self.render_sample(scene, [x, y], pass, tracer, delta);
+            }
+        }
+        self.samples_of(unit)
+    }
+
+    /// Columns and rows of the tile that a unit is.
+    fn tile(&self, unit: u64) -> [Range<u32>; 2] {
+        let tile = (unit % self.units_per_pass()) as u32;
         let corner = [tile % self.tiles[0], tile / self.tiles[0]];
-        let range = |axis: usize| {
+        [0, 1].map(|axis| {
             let [first, end] = self.region.ends[axis];
             let lo = first + corner[axis] * TILE;
             lo..(lo + TILE).min(end)
-        };
-        let mut samples = 0;
-        for y in range(1) {
-            for x in range(0) {
-                self.render_sample(scene, [x, y], pass, tracer, delta);
-                samples += 1;
-            }
-        }
-        samples
+        })
+    }
+
+    /// Samples of a unit.
+    pub(super) fn samples_of(&self, unit: u64) -> u64 {
+        self.tile(unit).iter().map(|range| u64::from(range.end - range.start)).product()
     }
 
     /// Sample number `pass` of an output pixel.
@@ -131,23 +141,36 @@ impl Independent {
             found.path.alpha
         };
         let alpha = (alpha * on_film.weight).to_f64() as f32;
-        let [direct, indirect] = self.layers;
+        let layers = self.layers;
+        let path = &found.path;
+        // What leaves the scene has met nothing.
+        let (direct, background) = if path.alpha == 0.0 && layers.background != layers.direct {
+            (SampledSpectrum::ZERO, path.direct)
+        } else {
+            (path.direct, SampledSpectrum::ZERO)
+        };
         let mut add = |layer, light, alpha| {
             delta.add_sample(layer, x, y, found.sensor.xyz(&(light * on_film.weight)), alpha);
-            if self.is_bidirectional {
-                // Counted one by one, so that what a unit that fails leaves behind is counted rightly.
-                delta.add_samples(layer + 1, 1);
-            }
         };
-        if direct == indirect {
-            add(direct, found.path.radiance(), alpha);
+        if layers.indirect == layers.direct {
+            add(layers.direct, direct + path.indirect, alpha);
         } else {
-            add(direct, found.path.direct, alpha);
-            add(indirect, found.path.indirect, 0.0);
+            add(layers.direct, direct, alpha);
+            add(layers.indirect, path.indirect, 0.0);
+        }
+        if layers.background != layers.direct {
+            add(layers.background, background, 0.0);
+        }
+        if self.is_bidirectional {
+            // Counted one by one, so that what a unit that fails leaves behind is counted rightly.
+            delta.add_samples(layers.direct + 1, 1);
+            if layers.indirect != layers.direct {
+                delta.add_samples(layers.indirect + 1, 1);
+            }
         }
         for splat in tracer.splats() {
             let xyz = found.sensor.xyz(&splat.radiance);
-            let layer = self.layers[usize::from(splat.is_indirect)];
+            let layer = layers.of(splat.is_indirect);
             delta.splat(layer + 1, self.region.in_pixels(splat.position), xyz, &self.filter);
         }
     }

@@ -13,6 +13,7 @@
 //! Where no seed found any light a chain looks on, by large mutations alone, and counts from the first that finds
 //! some: what it has looked at before counts in b, and would count twice as mutations that show nothing.
 
+use super::Layers;
 use super::chain::{ChainSample, Mutation};
 use super::region::Region;
 use super::seeds::{self, Seeds};
@@ -40,8 +41,8 @@ pub struct Metropolis {
     first: u64,
     events: Events,
     settings: MetropolisSettings,
-    /// The film's layers for direct and for indirect light, which may be the same.
-    layers: [usize; 2],
+    /// The film's layers.
+    layers: Layers,
     seeds: Seeds,
     chains: Vec<Mutex<Chain>>,
 }
@@ -65,8 +66,8 @@ const ROOM: usize = 256;
 /// What a primary sample puts on the film.
 #[derive(Clone, Debug)]
 struct State {
-    /// Position in internal pixels, colour in cd/m², and whether the light is indirect.
-    splats: Vec<(Vec2, [f32; 3], bool)>,
+    /// Position in internal pixels, colour in cd/m², and the film's layer.
+    splats: Vec<(Vec2, [f32; 3], usize)>,
     /// What the chain goes by: the sum of (X + Y + Z) / 3, which no colour can leave at 0.
     target: f64,
     /// How much it has counted so far.
@@ -89,7 +90,7 @@ impl Metropolis {
         [seed, first]: [u64; 2],
         events: Events,
         settings: MetropolisSettings,
-        layers: [usize; 2],
+        layers: Layers,
     ) -> Self {
         let region = Region::of(scene);
         Self {
@@ -177,11 +178,7 @@ struct Run<'a> {
 impl Run<'_> {
     /// The layers, each once.
     fn each_layer(&mut self, act: impl Fn(&mut FilmDelta, usize)) {
-        let [direct, indirect] = self.driver.layers;
-        act(self.delta, direct);
-        if indirect != direct {
-            act(self.delta, indirect);
-        }
+        self.driver.layers.each().for_each(|layer| act(self.delta, layer));
     }
 
     /// Counts a mutation, of a chain with a state or of one that has found no light yet.
@@ -210,17 +207,20 @@ impl Run<'_> {
         (state.target, state.weight, state.refused) = (0.0, 0.0, 0);
         // Film positions are uniform over the region, not over the film.
         let film = region.in_pixels(position);
-        let mut add =
-            |light, is_indirect| state.add(film, found.sensor.xyz(&(light * region.share())), is_indirect);
-        if self.driver.layers[0] == self.driver.layers[1] {
-            add(found.path.radiance(), false);
+        let layers = self.driver.layers;
+        let mut add = |light, layer| state.add(film, found.sensor.xyz(&(light * region.share())), layer);
+        if found.path.alpha == 0.0 {
+            // What leaves the scene has met nothing.
+            add(found.path.radiance(), layers.background);
+        } else if layers.direct == layers.indirect {
+            add(found.path.radiance(), layers.direct);
         } else {
-            add(found.path.direct, false);
-            add(found.path.indirect, true);
+            add(found.path.direct, layers.direct);
+            add(found.path.indirect, layers.indirect);
         }
         for splat in self.tracer.splats().iter().filter(|splat| region.holds(splat.position)) {
             let xyz = found.sensor.xyz(&splat.radiance);
-            state.add(region.in_pixels(splat.position), xyz, splat.is_indirect);
+            state.add(region.in_pixels(splat.position), xyz, layers.of(splat.is_indirect));
         }
         state.refused
     }
@@ -297,9 +297,8 @@ impl Run<'_> {
         if !(weight > 0.0 && weight.is_finite()) {
             return;
         }
-        for &(position, xyz, is_indirect) in &state.splats {
+        for &(position, xyz, layer) in &state.splats {
             let xyz = xyz.map(|c| (f64::from(c) * weight) as f32);
-            let layer = self.driver.layers[usize::from(is_indirect)];
             self.delta.splat(layer, position, xyz, &self.driver.filter);
         }
     }
@@ -314,13 +313,13 @@ impl Chain {
 }
 
 impl State {
-    fn add(&mut self, position: Vec2, xyz: [f32; 3], is_indirect: bool) {
+    fn add(&mut self, position: Vec2, xyz: [f32; 3], layer: usize) {
         let sum: f64 = xyz.iter().map(|c| f64::from(*c)).sum();
         if !(sum.is_finite() && sum >= 0.0) {
             self.refused += 1;
         } else if sum > 0.0 {
             self.target += sum / 3.0;
-            self.splats.push((position, xyz, is_indirect));
+            self.splats.push((position, xyz, layer));
         }
     }
 }

@@ -43,9 +43,47 @@ const CAMERA_INDIRECT: &str = "camera indirect";
 const LIGHT_INDIRECT: &str = "light indirect";
 const METROPOLIS_INDIRECT: &str = "metropolis indirect";
 
+/// The same of light that comes straight from the surroundings, where nothing stands before them.
+const CAMERA_BACKGROUND: &str = "camera background";
+const METROPOLIS_BACKGROUND: &str = "metropolis background";
+
 /// Whether a layer of a film holds light that is scattered more than once alone.
 pub fn is_indirect(layer: &str) -> bool {
     [CAMERA_INDIRECT, LIGHT_INDIRECT, METROPOLIS_INDIRECT].contains(&layer)
+}
+
+/// Whether a layer of a film holds light of the surroundings alone that nothing has scattered or hidden.
+pub fn is_background(layer: &str) -> bool {
+    [CAMERA_BACKGROUND, METROPOLIS_BACKGROUND].contains(&layer)
+}
+
+/// The film's layers for the parts of light, some of which may be the same: for camera samples and mutations. Splats of
+/// light paths go to the layer behind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Layers {
+    direct: usize,
+    indirect: usize,
+    background: usize,
+}
+
+impl Layers {
+    /// All light in one layer.
+    fn all_in(layer: usize) -> Self {
+        Self { direct: layer, indirect: layer, background: layer }
+    }
+
+    fn of(self, is_indirect: bool) -> usize {
+        if is_indirect { self.indirect } else { self.direct }
+    }
+
+    /// Those that differ, each once.
+    fn each(self) -> impl Iterator<Item = usize> {
+        let Self { direct, indirect, background } = self;
+        let others =
+            [(indirect, indirect != direct), (background, ![direct, indirect].contains(&background))];
+        std::iter::once(direct)
+            .chain(others.into_iter().filter(|(_, differs)| *differs).map(|(layer, _)| layer))
+    }
 }
 
 impl Driver {
@@ -61,45 +99,54 @@ impl Driver {
         let transport = &scene.transport;
         let most = transport.max_depth;
         let mut layers = vec![];
+        let is_apart = scene.output.layers_exr;
         // Of what is direct anyhow nothing is kept apart.
-        let is_split = scene.output.layers_exr && most > DIRECT;
+        let is_split = is_apart && most > DIRECT;
         let camera_layers = |layers: &mut Vec<(LayerKind, &'static str)>,
                              [camera, light]: [&'static str; 2]| {
             layers.push((LayerKind::PerPixel, camera));
             if transport.bidirectional {
                 layers.push((LayerKind::PerScreen, light));
             }
+            layers.len()
         };
-        let independent = |events, is_split| Box::new(Independent::new(scene, seed, events, is_split));
+        let independent = |events, layers| Box::new(Independent::new(scene, seed, events, layers));
         let parts = match transport.metropolis {
-            None => {
-                camera_layers(&mut layers, [CAMERA, LIGHT]);
-                if is_split {
-                    camera_layers(&mut layers, [CAMERA_INDIRECT, LIGHT_INDIRECT]);
-                }
-                Parts::Independent(independent(Events::up_to(most), is_split))
-            }
-            Some(settings) if transport.hybrid && most > DIRECT => {
-                camera_layers(&mut layers, [CAMERA, LIGHT]);
-                let direct = independent(Events::up_to(DIRECT), false);
-                let rest = Events { least: DIRECT + 1, most };
-                let indirect =
-                    Box::new(Metropolis::new(scene, [seed, first / 2], rest, settings, [layers.len(); 2]));
-                layers.push((LayerKind::PerScreen, METROPOLIS_INDIRECT));
-                Parts::Hybrid(direct, indirect)
-            }
-            Some(_) if transport.hybrid => {
-                camera_layers(&mut layers, [CAMERA, LIGHT]);
-                Parts::Independent(independent(Events::up_to(most), false))
-            }
-            Some(settings) => {
-                layers.push((LayerKind::PerScreen, METROPOLIS));
-                if is_split {
-                    layers.push((LayerKind::PerScreen, METROPOLIS_INDIRECT));
-                }
-                let layers = [0, usize::from(is_split)];
+            Some(settings) if !transport.hybrid => {
+                let mut add = |name, is_wanted: bool| {
+                    layers.extend(is_wanted.then_some((LayerKind::PerScreen, name)));
+                    layers.len() - 1
+                };
+                let direct = add(METROPOLIS, true);
+                let indirect = add(METROPOLIS_INDIRECT, is_split);
+                let background = if is_apart { add(METROPOLIS_BACKGROUND, true) } else { direct };
+                let layers = Layers { direct, indirect, background };
                 let driver = Metropolis::new(scene, [seed, first], Events::up_to(most), settings, layers);
                 Parts::Metropolis(Box::new(driver))
+            }
+            _ => {
+                let mut own = Layers::all_in(0);
+                let end = camera_layers(&mut layers, [CAMERA, LIGHT]);
+                // Of a hybrid indirect light is the other driver's.
+                if is_split && !transport.hybrid {
+                    own.indirect = end;
+                    camera_layers(&mut layers, [CAMERA_INDIRECT, LIGHT_INDIRECT]);
+                }
+                if is_apart {
+                    own.background = layers.len();
+                    layers.push((LayerKind::PerPixel, CAMERA_BACKGROUND));
+                }
+                match transport.metropolis {
+                    Some(settings) if most > DIRECT => {
+                        let direct = independent(Events::up_to(DIRECT), own);
+                        let rest = Events { least: DIRECT + 1, most };
+                        let layer = Layers::all_in(layers.len());
+                        layers.push((LayerKind::PerScreen, METROPOLIS_INDIRECT));
+                        let indirect = Metropolis::new(scene, [seed, first / 2], rest, settings, layer);
+                        Parts::Hybrid(direct, Box::new(indirect))
+                    }
+                    _ => Parts::Independent(independent(Events::up_to(most), own)),
+                }
             }
         };
         let region = Region::of(scene);
@@ -165,23 +212,33 @@ impl Driver {
 
     /// The least number of units with so many samples per pixel of the whole picture, or more.
     pub fn units(&self, samples_per_pixel: u64) -> u64 {
-        self.units_of(u128::from(self.pixels) * u128::from(samples_per_pixel))
+        self.units_of(u128::from(self.pixels) * u128::from(samples_per_pixel), 0)
     }
 
-    /// The least number of units with so many samples, or more.
+    /// The least number of units from `first` on with so many samples, or more.
     ///
     /// Independent samples come in whole passes over what is rendered, and a pass over a whole picture is one
     /// sample per pixel exactly; mutations come in units of `MUTATIONS`.
-    pub fn units_of(&self, samples: u128) -> u64 {
+    pub fn units_of(&self, samples: u128, first: u64) -> u64 {
         let units = match &self.parts {
             Parts::Independent(driver) => {
                 samples.div_ceil(u128::from(driver.pixels())) * u128::from(driver.units_per_pass())
             }
             Parts::Metropolis(_) => samples.div_ceil(u128::from(MUTATIONS)),
             Parts::Hybrid(direct, _) => {
-                // Tiles come in falling size, so any first few of a pass have at least the mean.
-                let mean_tile = direct.pixels() / direct.units_per_pass();
-                2 * samples.div_ceil(u128::from(mean_tile + MUTATIONS))
+                // As many units as a pass and its mutations have are such a round, wherever they begin.
+                let round = 2 * direct.units_per_pass();
+                let samples_of_round = direct.pixels() + direct.units_per_pass() * MUTATIONS;
+                let rounds = samples / u128::from(samples_of_round);
+                let mut left = samples % u128::from(samples_of_round);
+                let mut more = 0;
+                while left > 0 {
+                    let unit = first.saturating_add(more);
+                    let taken = if unit.is_multiple_of(2) { direct.samples_of(unit / 2) } else { MUTATIONS };
+                    left = left.saturating_sub(u128::from(taken));
+                    more += 1;
+                }
+                rounds * u128::from(round) + u128::from(more)
             }
         };
         u64::try_from(units).unwrap_or(u64::MAX)
