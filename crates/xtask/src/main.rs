@@ -9,16 +9,13 @@ mod documents;
 mod fuzz;
 mod generate;
 mod media_library;
-mod process;
-mod scenes;
 mod stages;
 mod tidy;
 mod venv;
 
 use std::process::ExitCode;
 
-/// What a command gives back: nothing, or one message for the person at the terminal.
-type Outcome = Result<(), String>;
+use xtask::{Outcome, process, scenes};
 
 /// A command: how it is called, what it is for, what runs it.
 struct Command {

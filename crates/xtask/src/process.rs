@@ -28,7 +28,10 @@ pub fn cargo(arguments: &[&str]) -> Command {
     command(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()), arguments)
 }
 
-/// Runs a command whose output goes to the terminal; an error says what failed and how.
+/// Runs a command whose output goes to the terminal.
+///
+/// # Errors
+/// Say what failed, and how.
 pub fn run(command: &mut Command) -> Result<(), String> {
     let shown = show(command);
     println!("$ {shown}");
@@ -37,6 +40,9 @@ pub fn run(command: &mut Command) -> Result<(), String> {
 }
 
 /// Runs a command and gives back what it writes to its standard output.
+///
+/// # Errors
+/// As those of [`run`].
 pub fn capture(command: &mut Command) -> Result<Vec<u8>, String> {
     let shown = show(command);
     let output = command

@@ -74,13 +74,22 @@ pub fn mean(film: &FilmState, region: Region) -> [f64; 4] {
     let pixels =
         (region[1][0]..region[1][1]).flat_map(|y| (region[0][0]..region[0][1]).map(move |x| y * width + x));
     let (mut sum, mut count) = ([0.0; 4], 0.0);
-    for i in pixels {
+    for i in pixels.clone() {
         count += layer.counts[i];
         for (s, v) in sum.iter_mut().zip(layer.sums[i]) {
             *s += v;
         }
     }
-    sum.map(|s| s / count)
+    let mut mean = sum.map(|s| s / count);
+    // What light paths bring is in layers that are not averages of samples.
+    if film.layers.len() > 1 {
+        let rest = film.develop_layers(|name| name != layer.name);
+        let pixels: Vec<usize> = pixels.collect();
+        for (c, mean) in mean.iter_mut().enumerate().take(3) {
+            *mean += pixels.iter().map(|&i| f64::from(rest.pixels[i][c])).sum::<f64>() / pixels.len() as f64;
+        }
+    }
+    mean
 }
 
 /// The whole of a scene's film.
@@ -101,8 +110,8 @@ impl Measured {
     }
 }
 
-/// Renders `batches` times with `passes` samples per output pixel each, and measures the regions: of the layer of
-/// camera paths alone.
+/// Renders `batches` times with `passes` samples per output pixel each, and measures the regions: XYZ of all layers, and
+/// the alpha of camera paths.
 pub fn measure_regions(scene: &Scene, regions: &[Region], batches: u64, passes: u64) -> Vec<Measured> {
     let mut measured: Vec<Measured> =
         regions.iter().map(|_| Measured { xyza: [Moments::default(); 4] }).collect();

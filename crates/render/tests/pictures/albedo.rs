@@ -126,7 +126,8 @@ fn rows() -> Vec<Row> {
         Row::new(gold.clone(), "", move |degrees| {
             luminous(|nm| quadrature(&gold, "", degrees, nm, Interface::NONE))
         }),
-        frosted(clear, "clear", 20.0),
+        frosted(clear, "clear", 5.0),
+        frosted(clear, "clear", 100.0),
         frosted(clear, "clear", 1000.0),
         // Radiance that comes out of the glass is divided by its index squared.
         Row::new(smooth("clear", true), clear(), |degrees| {

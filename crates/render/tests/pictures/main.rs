@@ -14,6 +14,7 @@ mod effects;
 mod environment;
 mod exposure;
 mod first_hits;
+mod frosted;
 mod furnace;
 mod lens;
 mod materials;

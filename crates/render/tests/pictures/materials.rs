@@ -104,34 +104,6 @@ fn with_technique(mut scene: Scene, bidirectional: bool) -> Scene {
     scene
 }
 
-/// A ball of rough glass loses what meets a second facet and nothing else.
-#[test]
-fn frosted_glass_lets_light_through_and_makes_none() {
-    let glass = medium("glass", 10, &basic(1.5, &uniform(0.0), ""));
-    let ball = |exponent: f64| {
-        let text = scene_file(&[
-            settings(8, ""),
-            flat_camera([0.0; 3], [0.0, 1.0, 0.0], 0.1),
-            glass.clone(),
-            format!(
-                "<material><name>m</name><glossy_transparent><internal_medium_name>glass</internal_medium_name>\
-                 <exponent>{exponent}</exponent></glossy_transparent></material>"
-            ),
-            super::common::text::sphere([0.0, 4.0, 0.0], 1.0, "m"),
-            background(&uniform(RADIANCE)),
-        ]);
-        scene_with(&text, [])
-    };
-    // Nearly smooth, nothing is lost; the rougher, the more.
-    for (exponent, least, most) in [(1e6, 0.998, 1.0 + 1e-3), (100.0, 0.9, 0.999), (5.0, 0.6, 0.97)] {
-        for bidirectional in [false, true] {
-            let measured = measure(&with_technique(ball(exponent), bidirectional), 16, 64);
-            let share = measured.luminance().mean() / (RADIANCE * NITS_PER_UNIFORM);
-            assert!(share > least && share < most, "{exponent}: {share}");
-        }
-    }
-}
-
 /// Light of one lamp far away, on a sheet raised by a ramp, is that on a sheet that leans as much: n · l with
 /// n = (-slope, 0, 1), under any scale of the coordinates and of the mesh. (Not steeper than 0.75, where the
 /// mirror image of the light at the sheet would begin to light the flank, too.)

@@ -117,7 +117,7 @@ fn each_wavelength_is_turned_by_its_own_angle() {
         let seen_at = seen(nm, deviation(n), 3000);
         let through = transmittance(i, first) * transmittance(second, e);
         let expected = RADIANCE * NITS_PER_UNIFORM / 106.85692 * y_bar * BAND * through;
-        assert_near(&format!("{nm} nm"), seen_at.luminance(), expected, 0.1);
+        assert_near(&format!("{nm} nm"), seen_at.luminance(), expected, 5e-3);
         // A lamp beside that place by three of its half widths, 0.26°, is not seen.
         for off in [-3.0, 3.0] {
             assert_eq!(seen(nm, deviation(n) + off * HALF, 300).luminance().mean(), 0.0, "{nm} nm, {off}");

@@ -1,6 +1,9 @@
 //! Glasses with something to drink in them, modelled by the rules of the manual for a liquid in a glass: the
 //! liquid reaches into the wall, of which the medium has the higher precedence; its surface rises to a
 //! meniscus where it meets the glass; all meshes are closed.
+//!
+//! The wine glass is there once more with explicit interfaces: the wine ends where the glass begins, at a surface that
+//! is the one interface of both, and for that has the higher precedence; what closes the glass lies within the wine.
 
 use std::io::{self, Write};
 
@@ -20,22 +23,62 @@ struct Vessel {
 }
 
 impl Vessel {
-    /// The liquid up to a height, with a meniscus of about 1 mm.
-    fn liquid(&self, level: f64) -> Profile {
-        let within = |p: &Point| p[1] <= level;
-        let wetted = self.inside.0.iter().take_while(|p| within(p)).count();
-        let wall = &self.inside.moved_out(0.5 * self.wall)[..wetted];
-        // The surface falls from the middle of the wall, through its inside, to the level.
-        let [edge, _] = self.inside.0[wetted - 1];
-        let top = wall[wetted - 1][0];
-        let wall_end = [top, level + 0.0015];
-        let meniscus = Profile(vec![wall_end])
-            .curve([[edge - 0.0002, level + 0.0006], [edge - 0.001, level], [edge - 0.003, level]], 16);
-        Profile(wall.to_vec()).then(meniscus.0).to([0.5 * edge, level]).to([0.0, level])
+    /// How many points of the inside are below the level of a liquid.
+    fn wetted(&self, level: f64) -> usize {
+        self.inside.0.iter().take_while(|p| p[1] <= level).count()
     }
 
-    /// The whole vessel: a `bottom` that goes on, over a control point, into the wall's outside at its point `from`.
-    fn glass(&self, bottom: Profile, control: Point, from: usize) -> Profile {
+    /// The surface of a liquid with a meniscus of about 1 mm: from the middle of the wall, through its inside, to the
+    /// level and the axis.
+    fn surface(&self, level: f64) -> Vec<Point> {
+        let last = self.wetted(level) - 1;
+        let [edge, _] = self.inside.0[last];
+        let [top, _] = self.inside.moved_out(0.5 * self.wall)[last];
+        Profile(vec![[top, level + 0.0015]])
+            .curve([[edge - 0.0002, level + 0.0006], [edge - 0.001, level], [edge - 0.003, level]], 16)
+            .to([0.5 * edge, level])
+            .to([0.0, level])
+            .0
+    }
+
+    /// The liquid up to a height.
+    fn liquid(&self, level: f64) -> Profile {
+        let wall = &self.inside.moved_out(0.5 * self.wall)[..self.wetted(level)];
+        Profile(wall.to_vec()).then(self.surface(level))
+    }
+
+    /// The liquid up to a height, which ends at the inside of the wall.
+    fn liquid_within(&self, level: f64) -> Profile {
+        let surface = self.surface(level);
+        let Contact { at, inside, surface: meets } = self.contact(&surface);
+        Profile(self.inside.0[..=inside].to_vec()).to(at).then(surface[meets + 1..].iter().copied())
+    }
+
+    /// What closes a vessel that ends where a liquid begins: its inside from the lip down to there, and from there to
+    /// the axis within the liquid.
+    fn dry_inside(&self, level: f64) -> Vec<Point> {
+        let Contact { at, inside, .. } = self.contact(&self.surface(level));
+        let dry = self.inside.0[inside + 1..].iter().rev().copied();
+        let depth = level - 0.01;
+        dry.chain([at, [0.5 * at[0], depth], [0.0, depth]]).collect()
+    }
+
+    /// Where the surface of a liquid meets the inside.
+    fn contact(&self, surface: &[Point]) -> Contact {
+        let steps =
+            |points: &[Point]| points.windows(2).map(|p| [p[0], p[1]]).enumerate().collect::<Vec<_>>();
+        let inside = steps(&self.inside.0);
+        let meet = |&(k, step): &(usize, [Point; 2])| {
+            let crossing = |&(i, wall): &(usize, [Point; 2])| Some((i, crossing(step, wall)?));
+            let (i, at) = inside.iter().find_map(crossing)?;
+            Some(Contact { at, inside: i, surface: k })
+        };
+        steps(surface).iter().find_map(meet).expect("the surface begins in the wall and ends on the axis")
+    }
+
+    /// The outside of the vessel and its lip: a `bottom` that goes on, over a control point, into the wall's outside at
+    /// its point `from`.
+    fn outside(&self, bottom: Profile, control: Point, from: usize) -> Profile {
         let outside = &self.inside.moved_out(self.wall)[from..];
         let [first, second] = [outside[0], outside[1]];
         // The curve arrives in the direction in which the wall goes on.
@@ -45,8 +88,29 @@ impl Vessel {
             .curve([control, arrive, first], 16)
             .then(outside[1..].iter().copied())
             .then(rim(lip[0], lip[1], 8))
-            .then(self.inside.0.iter().rev().copied())
     }
+
+    /// The whole vessel from its outside.
+    fn glass(&self, outside: Profile) -> Profile {
+        outside.then(self.inside.0.iter().rev().copied())
+    }
+}
+
+/// Where two profiles meet: the point, and the numbers of the steps that cross there.
+struct Contact {
+    at: Point,
+    inside: usize,
+    surface: usize,
+}
+
+/// Where two steps cross.
+fn crossing([a, b]: [Point; 2], [c, d]: [Point; 2]) -> Option<Point> {
+    let cross = |p: Point, q: Point| p[0] * q[1] - p[1] * q[0];
+    let [ab, cd, ac] = [[a, b], [c, d], [a, c]].map(|[p, q]| [q[0] - p[0], q[1] - p[1]]);
+    let area = cross(ab, cd);
+    let [t, u] = [cross(ac, cd) / area, cross(ac, ab) / area];
+    let within = |x: f64| (0.0..1.0).contains(&x);
+    (within(t) && within(u)).then(|| [a[0] + t * ab[0], a[1] + t * ab[1]])
 }
 
 /// The bowl of a wine glass, 0.1 m above the table, closing a little towards its lip.
@@ -57,14 +121,21 @@ fn bowl() -> Vessel {
     Vessel { inside, wall: 0.0012 }
 }
 
-/// The glass round the bowl: foot, stem and wall.
-fn wine_glass() -> Profile {
+/// How high the wine stands.
+const WINE: f64 = 0.152;
+
+/// Foot, stem and wall round the bowl.
+fn wine_glass_outside() -> Profile {
     let foot = Profile(vec![[0.0, ABOVE_TABLE], [0.010, ABOVE_TABLE], [0.034, ABOVE_TABLE]])
         .curve([[0.0365, ABOVE_TABLE], [0.0365, 0.0028], [0.034, 0.0028]], 10)
         .curve([[0.020, 0.0042], [0.0040, 0.0048], [0.0036, 0.022]], 32)
         .curve([[0.0033, 0.045], [0.0030, 0.075], [0.0036, 0.090]], 24);
     // The stem opens into the wall; below there, the glass is solid.
-    bowl().glass(foot, [0.0040, 0.097], 14)
+    bowl().outside(foot, [0.0040, 0.097], 14)
+}
+
+fn wine_glass() -> Profile {
+    bowl().glass(wine_glass_outside())
 }
 
 /// A plain glass of a quarter of a litre.
@@ -78,7 +149,7 @@ fn tumbler() -> Vessel {
 fn tumbler_glass() -> Profile {
     let bottom = Profile(vec![[0.0, ABOVE_TABLE], [0.010, ABOVE_TABLE], [0.029, ABOVE_TABLE]])
         .curve([[0.0325, ABOVE_TABLE], [0.0330, 0.002], [0.0332, 0.005]], 12);
-    tumbler().glass(bottom, [0.0334, 0.008], 19)
+    tumbler().glass(tumbler().outside(bottom, [0.0334, 0.008], 19))
 }
 
 /// A glass and, in it, a liquid up to a height: meshes of a name each.
@@ -94,26 +165,50 @@ fn write_drink(
     Ok(())
 }
 
-/// The meshes of a wine glass, `glass` and `wine`, and models of them.
+/// The meshes of a wine glass, `glass` and `wine` of materials of these names, and models of them. The medium of the glass
+/// is to have the higher precedence.
+///
+/// # Errors
+/// Those of `out`.
 pub fn write_wine_glass(out: &mut dyn Write) -> io::Result<()> {
-    write_drink(["glass", "wine"], &[wine_glass(), bowl().liquid(0.152)], "wine", out)?;
+    write_wine_glass_of(&[wine_glass(), bowl().liquid(WINE)], out)
+}
+
+/// The same with explicit interfaces; here the wine is to have the higher precedence.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_explicit_wine_glass(out: &mut dyn Write) -> io::Result<()> {
+    let glass = wine_glass_outside().then(bowl().dry_inside(WINE));
+    write_wine_glass_of(&[glass, bowl().liquid_within(WINE)], out)
+}
+
+fn write_wine_glass_of(profiles: &[Profile; 2], out: &mut dyn Write) -> io::Result<()> {
+    write_drink(["glass", "wine"], profiles, "wine", out)?;
     write_model("glass", [0.0; 3], 1.0, None, out)?;
     write_model("wine", [0.0; 3], 1.0, None, out)
 }
 
 /// The same glass with nothing in it.
+///
+/// # Errors
+/// Those of `out`.
 pub fn write_empty_glass(out: &mut dyn Write) -> io::Result<()> {
     write_mesh("glass", true, "glass", &wine_glass().turned(TURN), out)?;
     write_model("glass", [0.0; 3], 1.0, None, out)
 }
 
-/// Three tumblers side by side, with materials `milk`, `beer` and `wine` in them.
+/// Two tumblers side by side and a small one, with materials `milk`, `beer` and `wine` in them: a red wine lets light
+/// through two centimetres, not through six.
+///
+/// # Errors
+/// Those of `out`.
 pub fn write_drinks(out: &mut dyn Write) -> io::Result<()> {
     write_mesh("glass", true, "glass", &tumbler_glass().turned(TURN), out)?;
-    for (material, x) in [("milk", -0.095), ("beer", 0.0), ("wine", 0.095)] {
+    for (material, x, size) in [("milk", -0.085, 1.0), ("beer", 0.008, 1.0), ("wine", 0.082, 0.35)] {
         write_mesh(material, true, material, &tumbler().liquid(0.092).turned(TURN), out)?;
-        write_model("glass", [x, 0.0, 0.0], 1.0, None, out)?;
-        write_model(material, [x, 0.0, 0.0], 1.0, None, out)?;
+        write_model("glass", [x, 0.0, 0.0], size, None, out)?;
+        write_model(material, [x, 0.0, 0.0], size, None, out)?;
     }
     Ok(())
 }
@@ -134,16 +229,28 @@ mod tests {
 
     #[test]
     fn glasses_and_liquids_are_closed_and_face_outwards() {
-        for profile in [wine_glass(), bowl().liquid(0.152), tumbler_glass(), tumbler().liquid(0.092)] {
+        let explicit = [wine_glass_outside().then(bowl().dry_inside(WINE)), bowl().liquid_within(WINE)];
+        let others = [wine_glass(), bowl().liquid(WINE), tumbler_glass(), tumbler().liquid(0.092)];
+        for profile in explicit.into_iter().chain(others) {
             assert_solid(&profile.turned(TURN), volume(&profile));
         }
         assert!(wine_glass().turned(TURN).triangles.len() >= 40_000);
     }
 
+    /// The surface meets the wall a little above the level, and the liquid that ends there lacks what is in the wall.
+    #[test]
+    fn liquids_of_both_kinds_have_one_surface() {
+        let contact = bowl().contact(&bowl().surface(WINE));
+        assert!((contact.at[1] - WINE - 0.0007).abs() < 0.0004, "{:?}", contact.at);
+        let [a, b] = [bowl().liquid(WINE), bowl().liquid_within(WINE)];
+        assert!(a.0.ends_with(&b.0[contact.inside + 2..]));
+        assert!(volume(&b) < volume(&a) && volume(&b) > 0.95 * volume(&a));
+    }
+
     /// Side and bottom of the liquid lie within the wall, and more than 0.2 mm from both its faces.
     #[test]
     fn the_liquid_reaches_into_the_wall() {
-        for (vessel, level) in [(bowl(), 0.152), (tumbler(), 0.092)] {
+        for (vessel, level) in [(bowl(), WINE), (tumbler(), 0.092)] {
             for p in vessel.liquid(level).0.iter().take_while(|p| p[1] < level) {
                 let distance = |q: &Point| (p[0] - q[0]).hypot(p[1] - q[1]);
                 let inside = vessel.inside.0.iter().map(distance).fold(f64::INFINITY, f64::min);
