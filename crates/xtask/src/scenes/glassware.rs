@@ -171,7 +171,8 @@ fn write_drink(
 /// # Errors
 /// Those of `out`.
 pub fn write_wine_glass(out: &mut dyn Write) -> io::Result<()> {
-    write_wine_glass_of(&[wine_glass(), bowl().liquid(WINE)], out)
+    let rules = "By the rules of the manual's Appendix A: the wine reaches into the wall of the glass, which displaces it.";
+    write_wine_glass_of(&[wine_glass(), bowl().liquid(WINE)], rules, out)
 }
 
 /// The same with explicit interfaces; here the wine is to have the higher precedence.
@@ -180,10 +181,12 @@ pub fn write_wine_glass(out: &mut dyn Write) -> io::Result<()> {
 /// Those of `out`.
 pub fn write_explicit_wine_glass(out: &mut dyn Write) -> io::Result<()> {
     let glass = wine_glass_outside().then(bowl().dry_inside(WINE));
-    write_wine_glass_of(&[glass, bowl().liquid_within(WINE)], out)
+    let rules = "Explicit interfaces: where glass and wine meet, one surface divides them, that of the wine.";
+    write_wine_glass_of(&[glass, bowl().liquid_within(WINE)], rules, out)
 }
 
-fn write_wine_glass_of(profiles: &[Profile; 2], out: &mut dyn Write) -> io::Result<()> {
+fn write_wine_glass_of(profiles: &[Profile; 2], rules: &str, out: &mut dyn Write) -> io::Result<()> {
+    writeln!(out, "<!-- {rules} -->")?;
     write_drink(["glass", "wine"], profiles, "wine", out)?;
     write_model("glass", [0.0; 3], 1.0, None, out)?;
     write_model("wine", [0.0; 3], 1.0, None, out)
