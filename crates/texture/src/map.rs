@@ -262,6 +262,29 @@ mod tests {
         assert!((slope - 1.0).abs() < 0.02, "{slope}");
     }
 
+    /// A map of scalars in colour is the grey map of the means: its values and its slopes.
+    #[test]
+    fn a_scalar_is_the_mean_of_the_channels() {
+        let colours: Vec<[f32; 3]> =
+            (0..12).map(|i| [0.3, 1.7, -0.4].map(|c| c * (i * i % 7) as f32)).collect();
+        let means = colours.iter().map(|[r, g, b]| (r + g + b) / 3.0).collect();
+        let of = |channels, values| Image {
+            width: 4,
+            height: 3,
+            channels,
+            pixels: Pixels::F32(values),
+            primaries: None,
+        };
+        let colour = texture(of(3, colours.concat()), Curve::IDENTITY);
+        let grey = texture(of(1, means), Curve::IDENTITY);
+        for i in 0..50 {
+            let uv = Vec2::new(i as Real * 0.137, i as Real * 0.071);
+            assert!((colour.scalar(uv) - grey.scalar(uv)).abs() < 1e-5);
+            let [a, b] = [&colour, &grey].map(|map| map.gradient(uv));
+            assert!((a[0] - b[0]).abs() < 1e-4 && (a[1] - b[1]).abs() < 1e-4, "{a:?} and {b:?}");
+        }
+    }
+
     #[test]
     fn textures_of_one_file_share_its_texels() {
         let image = Arc::new(ramp());

@@ -42,7 +42,7 @@ fn a_grey_ball_of_albedo_four_fifths_is_five_times_as_bright() {
 fn a_highly_reflective_room_is_a_hundred_times_as_bright_in_every_mode() {
     let mut scene = room(&Mesh::cube(1.0), 0.99, "<max_depth>10000</max_depth>");
     for mode in MODES {
-        let measured = luminance_in_mode(&mut scene, mode, 6, 24);
+        let measured = luminance_in_mode(&mut scene, mode, 6, 32);
         assert_is(&mode.to_string(), &measured, EMITTED * NITS_PER_UNIFORM * 100.0, 3e-2);
     }
 }

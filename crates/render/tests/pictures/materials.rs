@@ -292,6 +292,10 @@ fn the_kinds_of_phong_have_their_order() {
     // The texture counts before the spectrum of the ground: 0.5^2.2 of what the coat lets through, and not all of it.
     let ground_alone = at(&rest.replace("<albedo_texture><path>half.exr</path></albedo_texture>", ""));
     assert!((ground_alone - 1.0).abs() < 1e-3, "{ground_alone}");
+    // And the spectrum before the colour.
+    let coloured = rest
+        .replace("<albedo_texture><path>half.exr</path></albedo_texture>", "<diffuse>0.1 0.1 0.1</diffuse>");
+    assert!((at(&coloured) - ground_alone).abs() < 1e-6);
     assert!(at(&rest) < 0.28 && alone(gold) > 0.7 && (alone(&reflectivity) - 0.3).abs() < 0.02);
 }
 

@@ -251,6 +251,25 @@ fn what_is_not_transparent_only_reflects() {
     let parts = [clear("m", 10, 1.5), opaque, sphere([0.0; 3], 1.0, "mirror")];
     let scene = in_uniform_light([0.0, -5.0, 0.0], 1e-3, &parts);
     assert_luminance("mirror", &measure(&scene, 8, 64), 0.04);
+    // Where nothing is said, light goes through.
+    let unsaid = specular("ball", "m").replace("<transparent>true</transparent>", "");
+    let parts = [clear("m", 10, 1.5), unsaid, sphere([0.0; 3], 1.0, "ball")];
+    let scene = in_uniform_light([0.0, -5.0, 0.0], 1e-3, &parts);
+    assert_luminance("ball", &measure(&scene, 8, 64), 1.0);
+}
+
+/// A medium whose precedence is not given has 10: one of 9 that it holds is displaced, and one of 11 displaces it.
+#[test]
+fn the_precedence_of_a_medium_is_ten_where_it_is_not_given() {
+    for (precedence, absorbed_m) in [(9, 2.0), (11, 1.0)] {
+        let unsaid = absorbing("m", 10, 1.0, 0.5).replace("<precedence>10</precedence>", "");
+        let surfaces = specular("outer", "m") + &specular("inner", "hole");
+        let balls = sphere([0.0; 3], 1.0, "outer") + &sphere([0.0; 3], 0.5, "inner");
+        let parts = [unsaid, clear("hole", precedence, 1.0), surfaces, balls];
+        let scene = in_uniform_light([0.0, -5.0, 0.0], 1e-3, &parts);
+        let expected = (-0.5f64 * absorbed_m).exp();
+        assert_luminance(&format!("a hole of {precedence}"), &measure(&scene, 8, 64), expected);
+    }
 }
 
 /// A white tile under a coat, in a ball of water with the camera: nothing is lost, and radiance in water is its index
