@@ -201,17 +201,16 @@ pub fn write_empty_glass(out: &mut dyn Write) -> io::Result<()> {
     write_model("glass", [0.0; 3], 1.0, None, out)
 }
 
-/// Two tumblers side by side and a small one, with materials `milk`, `beer` and `wine` in them: a red wine lets light
-/// through two centimetres, not through six.
+/// Three tumblers side by side, with materials `milk`, `beer` and `wine` in them.
 ///
 /// # Errors
 /// Those of `out`.
 pub fn write_drinks(out: &mut dyn Write) -> io::Result<()> {
     write_mesh("glass", true, "glass", &tumbler_glass().turned(TURN), out)?;
-    for (material, x, size) in [("milk", -0.085, 1.0), ("beer", 0.008, 1.0), ("wine", 0.082, 0.35)] {
+    for (material, x) in [("milk", -0.095), ("beer", 0.0), ("wine", 0.095)] {
         write_mesh(material, true, material, &tumbler().liquid(0.092).turned(TURN), out)?;
-        write_model("glass", [x, 0.0, 0.0], size, None, out)?;
-        write_model(material, [x, 0.0, 0.0], size, None, out)?;
+        write_model("glass", [x, 0.0, 0.0], 1.0, None, out)?;
+        write_model(material, [x, 0.0, 0.0], 1.0, None, out)?;
     }
     Ok(())
 }
