@@ -6,11 +6,16 @@ use indigo_render::Progress;
 use std::fs::{File, OpenOptions};
 use std::io::{IsTerminal, Write};
 use std::path::Path;
-use std::time::{Duration, SystemTime};
+use std::time::{Duration, Instant, SystemTime};
+
+/// Time between lines of progress in logs, while a terminal has its line renewed several times a second.
+const BETWEEN_LOGGED: Duration = Duration::from_secs(10);
 
 /// How much is said.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Verbosity {
+    /// Nothing: what is said goes to the logs alone.
+    Silent,
     /// Warnings and errors.
     Quiet,
     /// Also what is done, and how far it is.
@@ -56,6 +61,8 @@ pub struct Console {
     /// The log as a line of JSON for each message.
     json_log: Option<File>,
     terminal: bool,
+    /// When the logs last had a line of progress.
+    last_logged: Option<Instant>,
     /// Length of the progress line on the terminal, to be wiped before anything else is written.
     line: usize,
 }
@@ -64,7 +71,7 @@ impl Console {
     /// A console without logs.
     pub fn new(verbosity: Verbosity) -> Self {
         let terminal = std::io::stderr().is_terminal();
-        Self { verbosity, log: None, json_log: None, terminal, line: 0 }
+        Self { verbosity, log: None, json_log: None, terminal, last_logged: None, line: 0 }
     }
 
     /// Whether a progress line can renew itself.
@@ -74,7 +81,10 @@ impl Console {
 
     /// From now on writes everything to a file, too; a file that cannot be written costs a warning.
     pub fn log_to(&mut self, path: &Path) {
-        self.log = self.open(path);
+        match OpenOptions::new().create(true).append(true).open(path) {
+            Ok(file) => self.log = Some(file),
+            Err(error) => self.warn(&format!("no log is kept: {}: {error}", path.display())),
+        }
     }
 
     /// From now on writes everything to a file as a line of JSON each, too.
@@ -84,16 +94,6 @@ impl Console {
     pub fn log_json_to(&mut self, path: &Path) -> std::io::Result<()> {
         self.json_log = Some(OpenOptions::new().create(true).append(true).open(path)?);
         Ok(())
-    }
-
-    fn open(&mut self, path: &Path) -> Option<File> {
-        match OpenOptions::new().create(true).append(true).open(path) {
-            Ok(file) => Some(file),
-            Err(error) => {
-                self.warn(&format!("no log is kept: {}: {error}", path.display()));
-                None
-            }
-        }
     }
 
     /// Says what went wrong.
@@ -133,6 +133,13 @@ impl Console {
         self.write(level, text.trim_end(), &diagnostic.message, &fields);
     }
 
+    /// Leaves what was found in a file to the logs alone.
+    pub fn log_diagnostic(&mut self, diagnostic: &Diagnostic, sources: &SourceMap) {
+        let verbosity = std::mem::replace(&mut self.verbosity, Verbosity::Silent);
+        self.diagnose(diagnostic, sources);
+        self.verbosity = verbosity;
+    }
+
     /// Writes a message of one or more lines; the logs have what the console passes over. `fields` are more of a line
     /// of JSON, each behind a comma.
     fn write(&mut self, level: Level, text: &str, message: &str, fields: &str) {
@@ -152,10 +159,10 @@ impl Console {
         if let Some(log) = &mut self.json_log {
             let time = utc(SystemTime::now());
             let message = quoted(message);
-            drop(writeln!(
-                log,
-                "{{\"time\":\"{time}\",\"level\":\"{level}\",\"message\":{message}{fields}}}"
-            ));
+            let line =
+                format!("{{\"time\":\"{time}\",\"level\":\"{level}\",\"message\":{message}{fields}}}\n");
+            // In one piece: others may append to the same file.
+            drop(log.write_all(line.as_bytes()));
         }
     }
 
@@ -174,7 +181,7 @@ impl Console {
     /// Renews the progress line on a terminal; a line of its own elsewhere.
     pub fn progress(&mut self, progress: &Progress) {
         let text = progress_text(progress);
-        if self.verbosity == Verbosity::Quiet {
+        if self.verbosity <= Verbosity::Quiet {
         } else if self.terminal {
             let padding = " ".repeat(self.line.saturating_sub(text.chars().count()));
             self.line = text.chars().count();
@@ -183,7 +190,10 @@ impl Console {
         } else {
             drop(writeln!(std::io::stderr(), "{text}"));
         }
-        self.log_progress(progress, &text);
+        let is_due = |last: Instant| !self.terminal || last.elapsed() >= BETWEEN_LOGGED;
+        if self.last_logged.is_none_or(is_due) {
+            self.log_progress(progress, &text);
+        }
     }
 
     /// The progress at the end of a render, which stays on the terminal.
@@ -193,15 +203,12 @@ impl Console {
         if self.verbosity > Verbosity::Quiet {
             drop(writeln!(std::io::stderr(), "{text}"));
         }
-        if let (Some(log), true) = (&mut self.log, self.terminal) {
-            drop(writeln!(log, "{text}"));
-        }
         self.log_progress(progress, &text);
     }
 
-    /// The plain log has a line where there is no terminal, on which the same line is renewed several times a second.
     fn log_progress(&mut self, p: &Progress, text: &str) {
-        if let (Some(log), false) = (&mut self.log, self.terminal) {
+        self.last_logged = Some(Instant::now());
+        if let Some(log) = &mut self.log {
             drop(writeln!(log, "{text}"));
         }
         let error = p.relative_error.map(|e| format!(",\"relative_error\":{e}")).unwrap_or_default();

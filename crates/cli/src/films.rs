@@ -3,7 +3,7 @@
 use crate::console::Console;
 use crate::flags::Arguments;
 use crate::render::{denoiser, logical_cores, overwrites, program, say_missing_folder, say_saved};
-use crate::{BAD_INPUT, FAILED, RENDERED, json_report, paths, refuse, report, with_load_options};
+use crate::{BAD_INPUT, FAILED, RENDERED, paths, refuse, tell_findings, with_load_options};
 use indigo_render::output::{OutputPaths, SaveJob, write_film};
 use indigo_render::pool::with_jobs;
 use indigo_render::saved::{FilmFileError, merge_films, read_film};
@@ -53,9 +53,7 @@ pub fn tone_map(arguments: &Arguments, console: &mut Console) -> u8 {
         Ok(loaded) => loaded,
         Err(message) => return refuse(&message, console),
     };
-    if !arguments.json {
-        report(scene, &loaded.sink, &loaded.sources, false, console);
-    } else if !console.answer(&json_report(scene, &loaded.sink, &loaded.sources)) {
+    if !tell_findings(scene, &loaded.sink, &loaded.sources, arguments, console) {
         return FAILED;
     }
     let Some(mut development) = loaded.development else { return BAD_INPUT };

@@ -229,7 +229,13 @@ fn apply(flag: &Flag, value: String, parsed: &mut Arguments) -> Result<(), Strin
         Action::Json => parsed.json = true,
         Action::Quiet => parsed.verbosity = Verbosity::Quiet,
         Action::Verbose => parsed.verbosity = Verbosity::Verbose,
-        Action::JsonLog => parsed.json_log = Some(value),
+        Action::JsonLog => {
+            let endings = [".igs", ".pigs", ".igi", ".png", ".exr", ".xml"];
+            if endings.iter().any(|ending| value.to_ascii_lowercase().ends_with(ending)) {
+                return Err(format!("-log-json appends to a log, and {value} is none by its name"));
+            }
+            parsed.json_log = Some(value);
+        }
         Action::PerformanceTest => parsed.performance_test = true,
         Action::Man => parsed.man = true,
         Action::Completions => {

@@ -42,14 +42,7 @@ fn main() -> ExitCode {
         Ok(arguments) => arguments,
         Err(message) => return ExitCode::from(refuse(&message, &mut Console::new(Verbosity::Usual))),
     };
-    let mut console = Console::new(arguments.verbosity);
-    if let Some(log) = &arguments.json_log
-        && let Err(error) = console.log_json_to(Path::new(log))
-    {
-        console.error(&format!("no log can be kept: {log}: {error}"));
-        return ExitCode::from(FAILED);
-    }
-    ExitCode::from(run(&arguments, &mut console))
+    ExitCode::from(run(&arguments, &mut Console::new(arguments.verbosity)))
 }
 
 fn run(arguments: &Arguments, console: &mut Console) -> u8 {
@@ -67,6 +60,12 @@ fn run(arguments: &Arguments, console: &mut Console) -> u8 {
     }
     if let Some(path) = &arguments.dump_metadata {
         return dump_metadata(path, console);
+    }
+    if let Some(log) = &arguments.json_log
+        && let Err(error) = console.log_json_to(Path::new(log))
+    {
+        console.error(&format!("no log can be kept: {log}: {error}"));
+        return FAILED;
     }
     if arguments.merge {
         return films::merge(arguments, console);
@@ -112,12 +111,8 @@ fn run(arguments: &Arguments, console: &mut Console) -> u8 {
     {
         console.log_to(std::path::Path::new("log.txt"));
     }
-    if arguments.json {
-        if !console.answer(&json_report(scene, &loaded.sink, &loaded.sources)) {
-            return FAILED;
-        }
-    } else {
-        report(scene, &loaded.sink, &loaded.sources, arguments.check, console);
+    if !tell_findings(scene, &loaded.sink, &loaded.sources, arguments, console) {
+        return FAILED;
     }
     for file in &read {
         console.detail(&format!("Read {}", file.display()));
@@ -215,19 +210,22 @@ fn with_resolver<T>(
     Ok((loaded, disk.files()))
 }
 
-/// Says what was found in a scene, as text or JSON.
-///
-/// # Errors
-/// The exit status, where it could not be said or the scene cannot be rendered.
-fn found_errors(path: &str, loaded: &Loaded, arguments: &Arguments, console: &mut Console) -> Result<(), u8> {
-    report(path, &loaded.sink, &loaded.sources, false, console);
-    if arguments.json
-        && loaded.sink.has_errors()
-        && !console.answer(&json_report(path, &loaded.sink, &loaded.sources))
-    {
-        return Err(FAILED);
+/// Says what was found in a scene, as text or JSON; whether what was asked for arrived.
+fn tell_findings(
+    scene: &str,
+    sink: &Sink,
+    sources: &SourceMap,
+    arguments: &Arguments,
+    console: &mut Console,
+) -> bool {
+    if !arguments.json {
+        report(scene, sink, sources, arguments.check, console);
+        return true;
     }
-    if loaded.sink.has_errors() { Err(BAD_INPUT) } else { Ok(()) }
+    for diagnostic in found(sink) {
+        console.log_diagnostic(diagnostic, sources);
+    }
+    console.answer(&json_report(scene, sink, sources))
 }
 
 /// Everything that was found in the scene, errors last so that they are seen.

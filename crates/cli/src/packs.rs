@@ -2,14 +2,15 @@
 
 use crate::console::Console;
 use crate::flags::Arguments;
-use crate::{FAILED, RENDERED, count, json_report, refuse, report, with_load_options};
+use crate::{BAD_INPUT, FAILED, RENDERED, count, refuse, tell_findings, with_load_options};
 use indigo_decl::Resolver as _;
 use indigo_igs::pack::{PACK_ENDING, Pack, PackLimits, PackResolver};
 use indigo_render::atomic::write_atomically;
 use indigo_render::disk::{DiskResolver, read_limited};
 use indigo_scene::load_contents;
 use std::cell::Cell;
-use std::io::Write as _;
+use std::fs::File;
+use std::io::{Error, ErrorKind, Write as _};
 use std::path::Path;
 
 /// Whether a file is a packed scene, by its name.
@@ -57,9 +58,7 @@ pub fn pack(arguments: &Arguments, console: &mut Console) -> u8 {
         Ok(packed) => packed,
         Err(message) => return refuse(&message, console),
     };
-    if !arguments.json {
-        report(scene, &loaded.sink, &loaded.sources, false, console);
-    } else if !console.answer(&json_report(scene, &loaded.sink, &loaded.sources)) {
+    if !tell_findings(scene, &loaded.sink, &loaded.sources, arguments, console) {
         return FAILED;
     }
     match written {
@@ -89,25 +88,53 @@ pub fn unpack(arguments: &Arguments, console: &mut Console) -> u8 {
         Ok(main) => main,
         Err(error) => return refuse(&format!("{path}: {error}"), console),
     };
-    let folder = Path::new(folder);
+    let (main, folder) = (main.to_owned(), Path::new(folder));
     match std::fs::read_dir(folder).map(|mut entries| entries.next().is_none()) {
         Ok(false) => {
             return refuse(&format!("{} is not empty; a new folder is expected", folder.display()), console);
         }
-        Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+        Err(error) if error.kind() != ErrorKind::NotFound => {
             return refuse(&format!("{}: {error}", folder.display()), console);
         }
         _ => {}
     }
-    for (name, _) in pack.members() {
-        let written = pack.read(name).map_err(|error| error.to_string()).and_then(|content| {
-            write_atomically(&folder.join(name), |file| file.write_all(&content)).map_err(|e| e.to_string())
-        });
-        if let Err(error) = written {
-            console.error(&format!("{}: {error}", folder.join(name).display()));
-            return FAILED;
+    match unpack_as_a_whole(&pack, folder) {
+        Ok(()) => {
+            console.say(&format!("Saved {}", folder.join(main).display()));
+            RENDERED
+        }
+        Err(error) => {
+            console.error(&format!("{}: {error}", folder.display()));
+            if error.kind() == ErrorKind::InvalidData { BAD_INPUT } else { FAILED }
         }
     }
-    console.say(&format!("Saved {}", folder.join(main).display()));
-    RENDERED
+}
+
+/// Writes all files into a folder beside the one to be, which takes its place when all are there.
+fn unpack_as_a_whole(pack: &Pack, folder: &Path) -> std::io::Result<()> {
+    let mut unfinished = folder.as_os_str().to_owned();
+    unfinished.push(".unpacking");
+    let unfinished = Path::new(&unfinished);
+    if let Some(above) = folder.parent() {
+        std::fs::create_dir_all(above)?;
+    }
+    std::fs::create_dir(unfinished)?;
+    let written = pack.members().try_for_each(|(name, _)| {
+        let content = pack.read(name).map_err(|error| Error::new(ErrorKind::InvalidData, error))?;
+        let path = unfinished.join(name);
+        path.parent().map_or(Ok(()), std::fs::create_dir_all)?;
+        let mut file = File::create_new(path)?;
+        file.write_all(&content)?;
+        file.sync_all()
+    });
+    let moved = written.and_then(|()| {
+        // An empty folder of that name may be there.
+        drop(std::fs::remove_dir(folder));
+        std::fs::rename(unfinished, folder)
+    });
+    if moved.is_err() {
+        // Best effort: the error that matters is the one being returned.
+        drop(std::fs::remove_dir_all(unfinished));
+    }
+    moved
 }

@@ -3,7 +3,7 @@
 use crate::console::Console;
 use crate::flags::Arguments;
 use crate::render::logical_cores;
-use crate::{BAD_INPUT, FAILED, RENDERED, found_errors, refuse, with_resolver};
+use crate::{BAD_INPUT, FAILED, RENDERED, refuse, report, with_resolver};
 use indigo_diag::quoted;
 use indigo_imaging::develop;
 use indigo_render::pool::with_jobs;
@@ -34,8 +34,11 @@ pub fn run(path: &str, arguments: &Arguments, console: &mut Console) -> u8 {
 fn measure(path: &str, arguments: &Arguments, console: &mut Console) -> Result<Vec<Figure>, u8> {
     let (read, load_time, scene) = load_cold(path, arguments, console)?;
     let pixels = scene.film.size.pixels() as u64;
-    let wanted = scene.output.halt_samples_per_pixel.map(|n| n.ceil() as u64);
-    let passes = wanted.unwrap_or_else(|| SAMPLES.div_ceil(pixels.max(1)));
+    let passes = match arguments.settings.iter().rfind(|s| s.setting == "halt_samples_per_pixel") {
+        // Checked with the scene.
+        Some(_) => scene.output.halt_samples_per_pixel.map_or(1, |n| n.ceil() as u64),
+        None => SAMPLES.div_ceil(pixels.max(1)),
+    };
     let threads = scene.output.threads.unwrap_or_else(logical_cores).min(MOST_THREADS);
     let halt = Halt { samples_per_pixel: Some(passes), ..Halt::default() };
     let options = Options { threads, seed: arguments.seed.unwrap_or_default(), halt, ..Options::default() };
@@ -46,7 +49,9 @@ fn measure(path: &str, arguments: &Arguments, console: &mut Console) -> Result<V
     let first = start.elapsed();
     let progress = loop {
         match session.wait(Duration::from_millis(100)) {
-            Event::Progress(progress) => console.progress(&progress),
+            // Elsewhere than on a terminal it would be a line each time.
+            Event::Progress(progress) if console.is_terminal() => console.progress(&progress),
+            Event::Progress(_) => {}
             Event::Halted(HaltReason::Failed(message), _) => {
                 console.error(&message);
                 return Err(FAILED);
@@ -63,11 +68,14 @@ fn measure(path: &str, arguments: &Arguments, console: &mut Console) -> Result<V
     let seconds = progress.elapsed.as_secs_f64().max(f64::MIN_POSITIVE);
     let per_second = |n: u64| format!("{:.0}", n as f64 / seconds);
     let stats = scene.stats();
+    let deciding = scene.identity.settings.iter().map(|(name, value)| format!("{name}={value}"));
     Ok(vec![
         ("program", crate::render::program(), ""),
         ("scene", hex(&scene.identity.hash), ""),
+        ("settings", deciding.collect::<Vec<_>>().join(" "), ""),
         ("technique", technique(&scene).to_owned(), ""),
         ("threads", threads.to_string(), ""),
+        ("cores", logical_cores().to_string(), ""),
         ("triangles", stats.geometry.triangles.to_string(), ""),
         ("pixels", pixels.to_string(), ""),
         ("read", seconds_of(read), "s"),
@@ -82,26 +90,28 @@ fn measure(path: &str, arguments: &Arguments, console: &mut Console) -> Result<V
     ])
 }
 
-/// Loads a scene once to see how long reading takes and once wholly, with all trees built anew: both times, and the
-/// scene.
+/// Loads a scene once so that the system has its files at hand, once to see how long reading takes, and once wholly,
+/// with all trees built anew: the last two times, and the scene. The settings file of this machine does not count.
 fn load_cold(
     path: &str,
     arguments: &Arguments,
     console: &mut Console,
 ) -> Result<(Duration, Duration, Scene), u8> {
-    let loaded = with_resolver(path, |resolver, inifile| {
-        let options = LoadOptions { inifile, overrides: &arguments.settings, ..LoadOptions::new(resolver) };
+    let loaded = with_resolver(path, |resolver, _| {
+        let options = LoadOptions { overrides: &arguments.settings, ..LoadOptions::new(resolver) };
         let timed = |options: &LoadOptions| {
             let start = Instant::now();
             let loaded = with_jobs(logical_cores(), || load(path, options));
             (start.elapsed(), loaded)
         };
-        let (read, _) = timed(&LoadOptions { check_only: true, ..options });
+        let reading = LoadOptions { check_only: true, ..options };
+        drop(timed(&reading));
+        let (read, _) = timed(&reading);
         let (load_time, loaded) = timed(&options);
         (read, load_time, loaded)
     });
     let ((read, load_time, loaded), _) = loaded.map_err(|message| refuse(&message, console))?;
-    found_errors(path, &loaded, arguments, console)?;
+    report(path, &loaded.sink, &loaded.sources, false, console);
     loaded.scene.map_or(Err(BAD_INPUT), |scene| Ok((read, load_time, scene)))
 }
 

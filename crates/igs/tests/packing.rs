@@ -49,6 +49,12 @@ fn what_is_packed_comes_back() {
         [("PACKED_0_wood.jpg", 4), ("PACKED_1_Stein_boden.jpg", 5), ("PACKED_2_wood.nk", 4), ("room.igs", 8)];
     assert_eq!(members, expected);
     assert_eq!(pack.main().unwrap(), "room.igs");
+    let mut archive = zip::ZipArchive::new(Cursor::new(self::pack())).unwrap();
+    for i in 0..archive.len() {
+        let member = archive.by_index_raw(i).unwrap();
+        assert_eq!(member.last_modified(), Some(zip::DateTime::default()));
+        assert_eq!(member.unix_mode(), Some(0o100_644), "as on Unix everywhere");
+    }
     assert_eq!(pack.read("PACKED_1_Stein_boden.jpg").unwrap(), b"stone");
     assert!(pack.read("nothing").is_err());
 }
@@ -64,6 +70,11 @@ fn names_that_lead_elsewhere_are_refused() {
         "a//b.png",
         "./a.png",
         "tab\t.png",
+        "what?.png",
+        "dot.",
+        "CON",
+        "maps/nul.png",
+        "Com1.igs",
         "..",
     ] {
         let text = refusal(archive(&[("scene.igs", b"<scene/>"), (name, b"x")]));
@@ -95,9 +106,9 @@ fn what_is_no_archive_or_a_damaged_one_is_refused() {
 
 #[test]
 fn there_must_be_one_scene() {
-    assert!(refusal(archive(&[("a.png", b"x")])).ends_with("this one holds 0"));
+    assert!(refusal(archive(&[("a.png", b"x")])).ends_with("this one holds none"));
     let two = archive(&[("a.igs", b"<scene/>"), ("b.igs", b"<scene/>")]);
-    assert!(refusal(two).ends_with("this one holds 2"));
+    assert!(refusal(two).ends_with("this one holds a.igs, b.igs"));
     // What the scene includes is no scene of its own.
     let one = archive(&[("PACKED_0_b.igs", b"<scene/>"), ("dir/c.igs", b"<scene/>"), ("a.IGS", b"<scene/>")]);
     assert_eq!(open(one).unwrap().main().unwrap(), "a.IGS");
@@ -179,7 +190,8 @@ fn a_packed_scene_is_read_as_it_lies() {
     assert_eq!(from_scene("D:\\work\\PACKED_0_a.png").unwrap(), b"a");
     assert_eq!(read("c.png", "x/s.pigs/parts/b.igs").unwrap(), b"c");
     assert_eq!(read("../PACKED_0_a.png", "x/s.pigs/parts/b.igs").unwrap(), b"a");
-    // What comes with the program, and what the program itself asks for.
+    // What comes with the program, and what that names; and what the program itself asks for.
+    assert_eq!(read("nkdata/au.nk", "nkdata/list.igs").unwrap(), b"resources");
     assert_eq!(from_scene("nkdata/au.nk").unwrap(), b"resources");
     assert_eq!(read("inifile.xml", "").unwrap(), b"outside");
     // Nothing else of the disk.

@@ -53,6 +53,8 @@ indigo_decl::codes! {
     PLANE_BIDIRECTIONAL = "E0311", "<renderer_settings><bidirectional>true</bidirectional></renderer_settings><plane><normal>0 0 1</normal><dist>0</dist><material_name>white</material_name></plane>";
     /// A material that is made of itself, or of others too deep.
     BLEND_CYCLE = "E0312", "(a blend that names itself)";
+    /// A file that a packed scene lacks.
+    NOT_PACKED = "W0316", "(`--pack` of a scene with `<path>nowhere.png</path>`)";
     /// A path that cannot be rewritten where a scene is packed.
     NOT_REWRITABLE = "E0313", "(`--pack` of a scene with `<path>a<![CDATA[.png]]></path>`)";
     /// More media than can be told apart.

@@ -1,11 +1,11 @@
 //! What a scene consists of: its files, each with the places that name it; and packing them.
 
 use crate::codes;
-use crate::load::{LoadOptions, read_and_bind};
+use crate::load::{LoadOptions, load, read_and_bind};
 use indigo_decl::Resolver;
 use indigo_diag::{Diagnostic, Sink, SourceId, SourceMap, Span};
 use indigo_igs::pack::PackWriter;
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, HashMap};
 use std::io::{Error, Seek, Write};
 
 /// A scene as far as its files could be found.
@@ -38,9 +38,13 @@ enum Named {
     File(String),
 }
 
-/// Finds all files that a scene names, in itself and in what it includes. The files are read to see that they can be,
-/// not to see whether they are sound.
+/// Finds all files that a scene names, in itself and in what it includes. The scene is checked before: what has errors
+/// has no contents.
 pub fn load_contents(path: &str, options: &LoadOptions) -> LoadedContents {
+    let checked = load(path, &LoadOptions { check_only: true, ..*options });
+    if checked.sink.has_errors() {
+        return LoadedContents { contents: None, sources: checked.sources, sink: checked.sink };
+    }
     let mut sources = SourceMap::default();
     let mut sink = Sink::new();
     let bound = read_and_bind(path, options, &mut sources, &mut sink);
@@ -53,10 +57,13 @@ pub fn load_contents(path: &str, options: &LoadOptions) -> LoadedContents {
             uses.entry(span.source).or_default().push(Use { span, named: Named::Document(source) });
         }
     }
-    let mut found = HashSet::new();
+    let mut found = HashMap::new();
     bound.root.visit_paths(&mut |written, span| {
-        if found.insert((written.to_owned(), span.source)) {
-            check_readable(written, span, options.resolver, &sources, &mut sink);
+        let is_there = *found
+            .entry((written.to_owned(), span.source))
+            .or_insert_with(|| is_readable(written, span, options.resolver, &sources, &mut sink));
+        if !is_there {
+            return;
         }
         uses.entry(span.source).or_default().push(Use { span, named: Named::File(written.to_owned()) });
     });
@@ -70,18 +77,31 @@ pub fn load_contents(path: &str, options: &LoadOptions) -> LoadedContents {
     LoadedContents { contents, sources, sink }
 }
 
-fn check_readable(path: &str, span: Span, resolver: &dyn Resolver, sources: &SourceMap, sink: &mut Sink) {
-    if let Err(error) = resolver.read(path, sources.name(span.source)) {
+/// Whether a file can be read. If not, that is warned of and the path stays as it is: nothing uses what names the file,
+/// or the scene would have had an error.
+fn is_readable(
+    path: &str,
+    span: Span,
+    resolver: &dyn Resolver,
+    sources: &SourceMap,
+    sink: &mut Sink,
+) -> bool {
+    let read = resolver.read(path, sources.name(span.source));
+    if let Err(error) = &read {
         let message = format!("cannot read {path}: {error}");
-        sink.push(Diagnostic::error(codes::MISSING_FILE, span, message));
+        sink.push(
+            Diagnostic::warning(codes::NOT_PACKED, span, message).note("it will be missing in the pack"),
+        );
     }
+    read.is_ok()
 }
 
 /// Says so where a path is written in a way that another cannot take the place of.
 fn check_replaceable(span: Span, text: &[u8], sink: &mut Sink) {
     let written = text.get(range(span)).unwrap_or_default();
-    let holds = |mark: &[u8]| written.windows(mark.len()).any(|w| w == mark);
-    if span.len == u16::MAX || holds(b"<![CDATA[") != holds(b"]]>") {
+    let count = |mark: &[u8]| written.windows(mark.len()).filter(|w| w == &mark).count();
+    // As many sections begin in it as end in it: then what takes its place stands where it stood, inside or outside one.
+    if span.len == u16::MAX || count(b"<![CDATA[") != count(b"]]>") {
         let message = "this path is written in a way that cannot be rewritten";
         sink.push(
             Diagnostic::error(codes::NOT_REWRITABLE, span, message)
@@ -107,7 +127,8 @@ impl Contents {
         resolver: &dyn Resolver,
     ) -> std::io::Result<usize> {
         const SCENE: SourceId = SourceId(0);
-        let mut packing = Packing { contents: self, sources, resolver, pack: PackWriter::new(out) };
+        let names = HashMap::new();
+        let mut packing = Packing { contents: self, names, sources, resolver, pack: PackWriter::new(out) };
         let scene = packing.rewritten(SCENE)?;
         packing.pack.finish(sources.name(SCENE), &scene)
     }
@@ -115,28 +136,28 @@ impl Contents {
 
 struct Packing<'a, W: Write + Seek> {
     contents: &'a Contents,
+    /// Names in the pack by path as it is written, and the file that it is written in.
+    names: HashMap<(&'a str, &'a str), String>,
     sources: &'a SourceMap,
     resolver: &'a dyn Resolver,
     pack: PackWriter<W>,
 }
 
-impl<W: Write + Seek> Packing<'_, W> {
+impl<'a, W: Write + Seek> Packing<'a, W> {
     /// The text of a scene file with the names that its files have in the pack, all of which are written there.
     fn rewritten(&mut self, source: SourceId) -> std::io::Result<Vec<u8>> {
-        let text = self.sources.text(source);
+        let (contents, sources) = (self.contents, self.sources);
+        let text = sources.text(source);
         let mut out = Vec::with_capacity(text.len());
         let mut copied = 0;
-        for Use { span, named } in self.contents.uses.get(&source).into_iter().flatten() {
+        for Use { span, named } in contents.uses.get(&source).into_iter().flatten() {
             let name = match named {
                 // As deep as includes may be nested.
                 Named::Document(included) => {
                     let content = self.rewritten(*included)?;
-                    self.pack.add(self.sources.name(*included), &content)?
+                    self.pack.add(sources.name(*included), &content)?
                 }
-                Named::File(path) => {
-                    let file = self.resolver.read(path, self.sources.name(source)).map_err(Error::other)?;
-                    self.pack.add(&file.path, &file.bytes)?
-                }
+                Named::File(path) => self.file(path, sources.name(source))?,
             };
             let place = range(*span);
             out.extend_from_slice(text.get(copied..place.start).unwrap_or_default());
@@ -145,5 +166,16 @@ impl<W: Write + Seek> Packing<'_, W> {
         }
         out.extend_from_slice(text.get(copied..).unwrap_or_default());
         Ok(out)
+    }
+
+    /// The name that a file has in the pack, into which it is written when it is first named.
+    fn file(&mut self, path: &'a str, from: &'a str) -> std::io::Result<String> {
+        if let Some(name) = self.names.get(&(path, from)) {
+            return Ok(name.clone());
+        }
+        let file = self.resolver.read(path, from).map_err(Error::other)?;
+        let name = self.pack.add(&file.path, &file.bytes)?;
+        self.names.insert((path, from), name.clone());
+        Ok(name)
     }
 }

@@ -34,14 +34,15 @@ impl<'a> Witness<'a> {
         let mut hasher = blake3::Hasher::new();
         hasher.update(&outline.shape);
         for (span, text) in &outline.texts {
-            // A name that happens to be a path as well stands for the same content everywhere.
-            match seen.get(&(text.to_string(), sources.name(span.source).to_owned())) {
-                Some(content) => _ = hasher.update(&[1]).update(content),
-                None if paths.contains(span) => _ = hasher.update(&[2]),
-                None => {
-                    hasher.update(&[0]);
-                    hash_text(&mut hasher, text);
-                }
+            // A name that happens to be a path as well is but a name.
+            if !paths.contains(span) {
+                hasher.update(&[0]);
+                hash_text(&mut hasher, text);
+            } else if let Some(content) = seen.get(&(text.to_string(), sources.name(span.source).to_owned()))
+            {
+                hasher.update(&[1]).update(content);
+            } else {
+                hasher.update(&[2]);
             }
         }
         *hasher.finalize().as_bytes()

@@ -24,7 +24,8 @@ fn names(flag: &Flag) -> impl Iterator<Item = &'static str> {
 }
 
 fn bash() -> String {
-    let all: Vec<String> = FLAGS.iter().flat_map(names).map(|name| format!("-{name}")).collect();
+    let all: Vec<String> =
+        FLAGS.iter().flat_map(names).flat_map(|name| [format!("-{name}"), format!("--{name}")]).collect();
     let with = |is_wanted: fn(&Value) -> bool| -> String {
         let wanted = FLAGS.iter().filter(|f| f.value.is_some_and(|value| is_wanted(&Value::of(value))));
         let names: Vec<String> =
@@ -36,6 +37,7 @@ fn bash() -> String {
          local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}}\n    \
          COMPREPLY=()\n    \
          case $before in\n        \
+         -completions|--completions) mapfile -t COMPREPLY < <(compgen -W '{}' -- \"$word\"); return ;;\n        \
          {}) return ;;\n        \
          {}) compopt -o filenames; mapfile -t COMPREPLY < <(compgen -f -- \"$word\"); return ;;\n    \
          esac\n    \
@@ -47,6 +49,7 @@ fn bash() -> String {
          fi\n\
          }}\n\
          complete -F _indigo_console indigo_console\n",
+        SHELLS.join(" "),
         with(|value| *value == Value::Word),
         with(|value| *value == Value::File),
         all.join(" ")
@@ -63,11 +66,12 @@ fn zsh() -> String {
             .replace(':', "\\:");
         for name in names(flag) {
             let value = flag.value.map_or_else(String::new, |value| match Value::of(value) {
+                Value::Word if value == "SHELL" => format!(":{value}:({})", SHELLS.join(" ")),
                 Value::Word => format!(":{value}:"),
                 Value::File => format!(":{value}:_files"),
             });
             // Writing to a string cannot fail.
-            let _ = writeln!(script, "    '-{name}[{doc}]{value}' \\");
+            let _ = writeln!(script, "    '-{name}[{doc}]{value}' \\\n    '--{name}[{doc}]{value}' \\");
         }
     }
     let _ = writeln!(script, "    '*:file:_files -g \"*.({FILES})(-.)\"'");
@@ -84,14 +88,16 @@ fn fish() -> String {
                 Some(Value::Word) => " -x",
                 Some(Value::File) => " -r",
             };
+            // A long option, or a letter.
+            let twice = if name.len() > 1 { format!(" -l {name}") } else { String::new() };
             // Writing to a string cannot fail.
-            let _ = writeln!(script, "complete -c indigo_console -o {name}{value} -d '{doc}'");
+            let _ = writeln!(script, "complete -c indigo_console -o {name}{twice}{value} -d '{doc}'");
         }
     }
     script
 }
 
 fn first_sentence(doc: &str) -> &str {
-    let end = doc.find(['.', ':', ';']).unwrap_or(doc.len());
-    doc.get(..end).unwrap_or(doc)
+    let end = [". ", ": ", "; ", " ("].iter().filter_map(|mark| doc.find(mark)).min().unwrap_or(doc.len());
+    doc.get(..end).unwrap_or(doc).trim_end_matches('.')
 }

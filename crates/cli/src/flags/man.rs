@@ -9,7 +9,7 @@ pub fn man() -> String {
     let mut page = format!(
         ".TH INDIGO_CONSOLE 1 \"\" \"Indigo {}\" \"Indigo\"\n\
          .SH NAME\nindigo_console \\- renders scenes by the laws of light\n\
-         .SH SYNOPSIS\n.B indigo_console\n.I SCENE.igs\n[options]\n\
+         .SH SYNOPSIS\n.B indigo_console\n.I SCENE.igs\n[options]\n.br\n.B indigo_console\n.I SCENE.pigs\n[options]\n\
          .SH DESCRIPTION\n{}\n.SH OPTIONS\n\
          Options stand before or after the scene, with one dash or two.\n",
         env!("CARGO_PKG_VERSION"),

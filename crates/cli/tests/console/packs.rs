@@ -90,24 +90,50 @@ fn an_unpacked_scene_renders_and_keeps_its_text() {
 #[test]
 fn what_cannot_be_packed_is_named() {
     let bench = bench();
+    // Nothing uses the material that names it.
     std::fs::remove_file(bench.path("parts/copy.png")).expect("a file");
     let ran = bench.run(&["--pack", "scene.igs", "out.pigs"]);
+    assert_eq!(ran.status, Some(0), "{ran:?}");
+    assert!(ran.stderr.contains("metals.igs:2:") && ran.stderr.contains("W0316"), "{}", ran.stderr);
+    assert_eq!(bench.run(&["out.pigs", "-haltspp", "1", "-o", "a.png"]).status, Some(0));
+    std::fs::remove_file(bench.path("maps & more/wood.png")).expect("a file");
+    let ran = bench.run(&["--pack", "scene.igs", "none.pigs"]);
     assert_eq!(ran.status, Some(2), "{ran:?}");
-    assert!(ran.stderr.contains("metals.igs:2:"), "{}", ran.stderr);
-    assert!(ran.stderr.contains("cannot read copy.png"), "{}", ran.stderr);
-    assert!(!bench.path("out.pigs").exists());
+    assert!(
+        ran.stderr.contains("scene.igs:14:") && ran.stderr.contains("cannot read maps"),
+        "{}",
+        ran.stderr
+    );
+    assert!(!bench.path("none.pigs").exists());
     let wrong = bench.run(&["--pack", "scene.igs", "out.zip"]);
     assert_eq!(wrong.status, Some(2), "{wrong:?}");
     assert!(wrong.stderr.contains("ends in .pigs"), "{}", wrong.stderr);
     let one = bench.run(&["--pack", "scene.igs"]);
     assert!(one.status == Some(2) && one.stderr.contains("--pack SCENE.igs OUT.pigs"), "{one:?}");
-    bench.write(
-        "odd.igs",
-        "<scene><env_map><latlong><path>a<![CDATA[b.exr]]></path><gain>1</gain></latlong></env_map></scene>",
-    );
-    std::fs::write(bench.path("ab.exr"), b"x").expect("a file");
-    let odd = bench.run(&["--pack", "odd.igs", "odd.pigs"]);
-    assert!(odd.status == Some(2) && odd.stderr.contains("E0313"), "{odd:?}");
+}
+
+/// A path in pieces, of which another could not take the place without breaking the file.
+#[test]
+fn paths_that_cannot_be_rewritten_are_named() {
+    let bench = bench();
+    let scene = std::fs::read_to_string(bench.path("scene.igs")).expect("the scene");
+    for odd in [
+        "maps & more/<![CDATA[wood]]>.<![CDATA[png]]>",
+        "<![CDATA[maps & more]]>/<![CDATA[wood]]>.png",
+        "<![CDATA[maps & more/wood]]>.png",
+    ] {
+        bench.write(
+            "odd.igs",
+            &scene.replace(" maps &amp; more/wood.png ", &odd.replace("maps & more/<", "maps &amp; more/<")),
+        );
+        let ran = bench.run(&["--pack", "odd.igs", "odd.pigs"]);
+        assert!(ran.status == Some(2) && ran.stderr.contains("E0313"), "{odd}: {ran:?}");
+        assert!(!bench.path("odd.pigs").exists());
+    }
+    let whole = "<![CDATA[maps & ]]>more/<![CDATA[wood.png]]>";
+    bench.write("whole.igs", &scene.replace(" maps &amp; more/wood.png ", whole));
+    assert_eq!(bench.run(&["--pack", "whole.igs", "whole.pigs"]).status, Some(0));
+    assert_eq!(bench.run(&["whole.pigs", "--check"]).status, Some(0));
 }
 
 #[test]
@@ -117,11 +143,33 @@ fn what_is_wrong_in_a_packed_scene_has_its_place_there() {
     let ran = bench.run(&["bad.pigs"]);
     assert_eq!(ran.status, Some(2), "{ran:?}");
     assert!(ran.stderr.contains("bad.pigs: this is not a sound packed scene"), "{}", ran.stderr);
-    // A fault that packing does not look for: a metal without data.
-    let metals = std::fs::read_to_string(bench.path("parts/metals.igs")).expect("it");
-    bench.write("parts/metals.igs", &metals.replace("nkdata/au.nk", "../scene.igs"));
-    assert_eq!(bench.run(&["--pack", "scene.igs", "out.pigs"]).status, Some(0));
+    let unpacked = bench.run(&["--unpack", "bad.pigs", "there"]);
+    assert!(unpacked.status == Some(2) && !bench.path("there").exists(), "{unpacked:?}");
+    let out = std::fs::File::create(bench.path("out.pigs")).expect("a file");
+    let mut pack = indigo_igs::pack::PackWriter::new(out);
+    let metals = "<scenedata>\n<material><nme>x</nme></material></scenedata>";
+    pack.add("metals.igs", metals.as_bytes()).expect("a disk");
+    let scene = "<scene><include><pathname>PACKED_0_metals.igs</pathname></include></scene>";
+    pack.finish("scene.igs", scene.as_bytes()).expect("a disk");
     let ran = bench.run(&["out.pigs", "--check"]);
     assert_eq!(ran.status, Some(2), "{ran:?}");
-    assert!(ran.stderr.contains("out.pigs/PACKED_2_metals.igs:1:"), "{}", ran.stderr);
+    assert!(ran.stderr.contains("out.pigs/PACKED_0_metals.igs:2:"), "{}", ran.stderr);
+}
+
+/// A mesh called as its file is: the name stays, the path does not.
+#[test]
+fn a_name_that_is_also_a_path_is_but_a_name() {
+    let bench = bench();
+    let scene = std::fs::read_to_string(bench.path("scene.igs")).expect("the scene");
+    let name = "maps &amp; more/wood.png";
+    bench.write(
+        "scene.igs",
+        &scene
+            .replace("<name>wood</name>", &format!("<name>{name}</name>"))
+            .replace("<material_name>wood", &format!("<material_name>{name}")),
+    );
+    assert_eq!(bench.run(&["--pack", "scene.igs", "out.pigs"]).status, Some(0));
+    assert_eq!(bench.run(&["scene.igs", "-haltspp", "1", "-o", "a.png"]).status, Some(0));
+    let on = bench.run(&["out.pigs", "-r", "a.igi", "-haltspp", "2", "-o", "b.png"]);
+    assert_eq!(on.status, Some(0), "{on:?}");
 }

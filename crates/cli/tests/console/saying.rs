@@ -42,6 +42,11 @@ fn a_log_of_json_has_a_line_for_each_message() {
     assert!(log.contains("\"level\":\"warning\"") && log.contains("\"diagnostic\":{"), "{log}");
     assert!(log.contains("\"level\":\"progress\"") && log.contains("\"samples_per_pixel\":2"), "{log}");
     assert!(log.contains("Saved a \\\"b\\\".png"), "{log}");
+    // Where the file was forgotten, the scene stands in its place.
+    let before = std::fs::read(bench.path("scene.igs")).expect("the scene");
+    let forgotten = bench.run(&["--log-json", "scene.igs"]);
+    assert!(forgotten.status == Some(2) && forgotten.stderr.contains("none by its name"), "{forgotten:?}");
+    assert_eq!(std::fs::read(bench.path("scene.igs")).expect("the scene"), before);
     let nowhere = bench.run(&["scene.igs", "-haltspp", "2", "--log-json", "no/such/folder/log.json"]);
     assert_eq!(nowhere.status, Some(1));
     assert!(nowhere.stderr.contains("no log can be kept"), "{}", nowhere.stderr);
@@ -97,8 +102,12 @@ fn the_manual_page_and_completions_know_every_option() {
     }
     for shell in ["bash", "zsh", "fish"] {
         let script = bench.run(&["-completions", shell]).stdout;
+        let words: Vec<&str> = script
+            .split(|c: char| !c.is_ascii_alphanumeric() && c != '-')
+            .map(|w| w.trim_start_matches('-'))
+            .collect();
         for name in &names {
-            assert!(script.contains(name), "{name} for {shell}");
+            assert!(words.contains(name), "{name} for {shell}");
         }
     }
     let unknown = bench.run(&["-completions", "csh"]);
@@ -124,6 +133,8 @@ fn bash_completes_options_and_files() {
         String::from_utf8(out.stdout).expect("text")
     };
     assert_eq!(complete("-haltsp", 1), "-haltspp\n");
+    assert_eq!(complete("--haltsp", 1), "--haltspp\n");
+    assert_eq!(complete("-completions z", 2), "zsh\n");
     assert_eq!(complete("sc", 1), "scene.igs\n");
     assert_eq!(complete("-haltspp 3", 2), "\n");
     assert!(complete("-r s", 2).contains("scene.igs"));

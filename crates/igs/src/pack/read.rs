@@ -24,11 +24,11 @@ pub struct PackLimits {
 }
 
 impl Default for PackLimits {
-    /// 10,000 members of 4 GiB, 64 GiB together, 200 times the archive beyond the first 256 MiB.
+    /// 10,000 members of up to 4 GiB, 64 GiB together, 200 times the archive beyond the first 256 MiB.
     fn default() -> Self {
         Self {
             members: 10_000,
-            member_bytes: u64::from(u32::MAX),
+            member_bytes: 4 << 30,
             total_bytes: 64 << 30,
             growth: 200,
             always_allowed: 256 << 20,
@@ -57,8 +57,12 @@ pub enum PackError {
     #[error("this packed scene is refused: some of its members share their bytes")]
     Overlap,
     /// No scene in it, or more than one.
-    #[error("a packed scene holds one scene, a file that ends in .igs; this one holds {}", .0.len())]
+    #[error("a packed scene holds one scene, a file that ends in .igs; this one holds {}", names(.0))]
     Scenes(Vec<String>),
+}
+
+fn names(scenes: &[String]) -> String {
+    if scenes.is_empty() { "none".to_owned() } else { scenes.join(", ") }
 }
 
 fn damaged(error: &ZipError) -> PackError {
@@ -185,17 +189,32 @@ const FILE_KIND: u32 = 0o170_000;
 const REGULAR_FILE: u32 = 0o100_000;
 
 /// What is wrong with a name, if it could lead out of the archive's folder or is none on some system.
-fn harm(name: &str) -> Option<&'static str> {
+pub(super) fn harm(name: &str) -> Option<&'static str> {
     let path = name.strip_suffix('/').unwrap_or(name);
     if path.starts_with('/') || path.contains(['\\', ':']) {
         Some("has a path that is not within the archive")
     } else if path.split('/').any(|part| part == ".." || part == ".") {
         Some("has a path that leads out of the archive")
-    } else if path.split('/').any(str::is_empty) || path.chars().any(char::is_control) {
-        Some("has a name that no file can have")
+    } else if path.split('/').any(is_impossible) {
+        Some("has a name that not every system allows")
     } else {
         None
     }
+}
+
+/// Whether a file cannot be called so on some system, or means a device there.
+fn is_impossible(name: &str) -> bool {
+    const DEVICES: [&str; 4] = ["con", "prn", "aux", "nul"];
+    let stem = name.split('.').next().unwrap_or_default().trim_end().to_ascii_lowercase();
+    let is_port = |port: &str| {
+        stem.strip_prefix(port).is_some_and(|n| n.len() == 1 && n.bytes().all(|b| b.is_ascii_digit()))
+    };
+    name.is_empty()
+        || name.ends_with(['.', ' '])
+        || name.chars().any(|c| c.is_control() || "<>\"|?*".contains(c))
+        || DEVICES.contains(&&*stem)
+        || is_port("com")
+        || is_port("lpt")
 }
 
 fn check_sizes(members: &[Member], archive: u64, limits: &PackLimits) -> Result<(), PackError> {

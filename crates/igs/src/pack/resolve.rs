@@ -4,6 +4,9 @@ use super::read::{Pack, PackError, PackLimits};
 use indigo_decl::{ResolveError, Resolved, Resolver};
 use std::sync::Arc;
 
+/// Folders of files that come with the program, which every scene may name.
+const RESOURCES: [&str; 3] = ["data", "media", "nkdata"];
+
 /// Finds files in a packed scene, and what the program brings with it elsewhere.
 ///
 /// The pack's own path stands for the scene in it. A file of the pack may name others of the pack, and files that come
@@ -58,7 +61,8 @@ impl Resolver for PackResolver<'_> {
         if from.is_empty() {
             return if path == self.path { self.member(&self.main) } else { self.outside.read(path, from) };
         }
-        let Some(from) = self.inside(from) else { return self.outside.read(path, from) };
+        // What comes with the program may name what else does.
+        let Some(from) = self.inside(from) else { return self.resources.read(path, from) };
         let wanted = path.replace('\\', "/");
         let beside = from.rsplit_once('/').map_or("", |(folder, _)| folder);
         // Whatever the path once was, a file of its name in the pack is what is meant.
@@ -69,7 +73,10 @@ impl Resolver for PackResolver<'_> {
         }
         let looked = candidates.into_iter().flatten().map(|name| format!("{}/{name}", self.path)).collect();
         let not_found = Err(ResolveError::NotFound { looked });
-        match within("", &wanted).filter(|name| !name.contains(':')) {
+        let is_resource = |name: &String| {
+            RESOURCES.iter().any(|folder| name.strip_prefix(folder).is_some_and(|rest| rest.starts_with('/')))
+        };
+        match within("", &wanted).filter(is_resource) {
             Some(resource) => self.resources.read(&resource, self.path).or(not_found),
             None => not_found,
         }
