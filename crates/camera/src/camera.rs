@@ -1,8 +1,8 @@
 //! A camera: a lens behind an aperture.
 
-use crate::diffraction::deflection::Deflection;
+use crate::diffraction::deflection::{Deflection, Offset};
 use crate::{Aperture, FarField, FilmPosition, LensRay, ThinLens};
-use indigo_math::{Real, Vec2, Vec3};
+use indigo_math::{Float, Real, Vec2, Vec3};
 use indigo_spectrum::{LanePdf, SampledWavelengths};
 
 /// Where paths begin: a thin lens, the opening through which light reaches it, and what that opening
@@ -11,6 +11,8 @@ use indigo_spectrum::{LanePdf, SampledWavelengths};
 pub struct Camera {
     lens: ThinLens,
     aperture: Aperture,
+    /// Area of the opening, m².
+    opening_m2: Real,
     deflection: Option<Box<Deflection>>,
 }
 
@@ -28,18 +30,28 @@ pub struct CameraRay {
     pub offset: Vec2,
     /// Density of that offset for each wavelength, over the hero's.
     pub ratio: LanePdf,
+    /// The hero's, over the area of the film; infinite where there is no diffraction.
+    pub offset_density: Real,
 }
 
 impl CameraRay {
-    fn new(ray: LensRay, offset: Vec2, ratio: LanePdf) -> Self {
-        Self { origin: ray.origin, direction: ray.direction, importance: ray.importance, offset, ratio }
+    fn new(ray: LensRay, offset: Offset) -> Self {
+        Self {
+            origin: ray.origin,
+            direction: ray.direction,
+            importance: ray.importance,
+            offset: offset.on_film,
+            ratio: offset.ratio,
+            offset_density: offset.density,
+        }
     }
 }
 
 impl Camera {
     /// A lens behind an aperture whose square has the aperture's radius as half its side.
     pub fn new(lens: ThinLens, aperture: Aperture) -> Self {
-        Self { lens, aperture, deflection: None }
+        let opening_m2 = (lens.aperture_radius().to_f64().powi(2) * aperture.area()) as Real;
+        Self { lens, aperture, opening_m2, deflection: None }
     }
 
     /// Radius of the opening, metres: how far from the camera's position a ray may begin.
@@ -58,7 +70,7 @@ impl Camera {
     /// choose a point of the aperture, evenly over what is open. There is no diffraction.
     #[inline]
     pub fn ray(&self, film: Vec2, lens: Vec2) -> CameraRay {
-        CameraRay::new(self.lens.ray(film, self.aperture.sample(lens)), Vec2::new(0.0, 0.0), LanePdf::ONE)
+        CameraRay::new(self.lens.ray(film, self.aperture.sample(lens)), Offset::NONE)
     }
 
     /// Whether [`sample`](Self::sample) sends rays elsewhere than [`ray`](Self::ray).
@@ -77,8 +89,8 @@ impl Camera {
         lambda: &SampledWavelengths,
     ) -> CameraRay {
         let Some(deflection) = &self.deflection else { return self.ray(film, lens) };
-        let (offset, ratio) = deflection.sample(diffraction, lambda);
-        CameraRay::new(self.lens.ray(film + offset, self.aperture.sample(lens)), offset, ratio)
+        let offset = deflection.sample(diffraction, lambda);
+        CameraRay::new(self.lens.ray(film + offset.on_film, self.aperture.sample(lens)), offset)
     }
 
     /// The film position that sees along a direction from a point of the lens, without diffraction: see
@@ -93,6 +105,13 @@ impl Camera {
     #[inline]
     pub fn pdf_direction(&self, direction: Vec3) -> Real {
         self.lens.pdf_direction(direction)
+    }
+
+    /// Over what part of the film the light of a point spreads that lies in a direction at a distance in metres, which
+    /// may be infinite: the area of its blur where the opening is even, without diffraction; 0 in focus.
+    #[inline]
+    pub fn blur(&self, direction: Vec3, distance: Real) -> Real {
+        self.lens.blur(direction, distance) * self.opening_m2
     }
 
     /// The viewing direction.

@@ -144,6 +144,15 @@ impl ThinLens {
         if cos <= 0.0 { 0.0 } else { 1.0 / (self.tangents.x * self.tangents.y * cos * cos * cos) }
     }
 
+    /// What part of the film the image of a square metre of the lens covers that a point in a direction at some distance,
+    /// metres, makes: a lens point at x sends its light to x (1/focus − 1/depth) over the film's tangents, beside where
+    /// the middle of the lens does.
+    #[inline]
+    pub fn blur(&self, direction: Vec3, distance: Real) -> Real {
+        let defocus = self.inverse_focus - 1.0 / (distance * direction.dot(self.forwards));
+        defocus * defocus / (self.tangents.x * self.tangents.y)
+    }
+
     /// What radiance along the chief ray of slopes x and y counts on the film.
     #[inline]
     fn importance(&self, x: Real, y: Real) -> Real {
@@ -267,6 +276,26 @@ mod tests {
             assert!((density * solid_angle - 1.0).abs() < 2e-3, "{}", density * solid_angle);
         }
         assert_eq!(lens.pdf_direction(-lens.forwards()), 0.0);
+    }
+
+    /// The image of a quarter of the lens, by where the light of its corners falls.
+    #[test]
+    fn blur_is_the_area_of_the_image_of_the_lens() {
+        let p = ThinLensParameters { aperture_radius: 0.1, focus_distance: 2.0, ..parameters() };
+        let lens = ThinLens::new(&p).unwrap();
+        for to in [Vec3d::new(0.7, 5.0, -0.4), Vec3d::new(-0.2, 0.8, 0.1), Vec3d::new(0.3, 2.0, 0.0)] {
+            let falls = |x: Real, z: Real| {
+                let origin = lens.position + Vec3::new(x, 0.0, z);
+                let direction = (lens.position + to.cast() - origin).normalized();
+                lens.film_position(origin, direction).unwrap().position
+            };
+            let (side, middle) = (0.1, falls(0.0, 0.0));
+            let (right, up) = (falls(side, 0.0) - middle, falls(0.0, side) - middle);
+            let expected = (right.x * up.y - right.y * up.x).abs();
+            let blur = lens.blur(to.normalized().cast(), to.length() as Real) * side * side;
+            assert!((blur - expected).abs() < 1e-4 * expected.max(1e-3), "{to:?}: {blur} {expected}");
+        }
+        assert!((lens.blur(lens.forwards, Real::INFINITY) / (0.25 / (1.8 * 1.2)) - 1.0).abs() < 1e-5);
     }
 
     #[test]

@@ -234,6 +234,20 @@ impl AreaLight {
         EmitterPoint { p: t.corner + a + b, p_error, n: t.normal, triangle: triangle as u32, bary }
     }
 
+    /// Turns a point, whose normal is that of the front, to the side from which `p` is lit. Gives the direction from `p`,
+    /// and by what a density over area is multiplied to be one in solid angle; `None` where no light goes there.
+    #[inline]
+    pub(crate) fn turn_towards(&self, p: Vec3, point: &mut EmitterPoint) -> Option<(Vec3, Real)> {
+        let way = point.p - p;
+        let distance2 = way.length2();
+        let wi = way / distance2.sqrt();
+        if -wi.dot(point.n) < 0.0 && self.is_two_sided() {
+            point.n = -point.n;
+        }
+        let cos = -wi.dot(point.n);
+        (cos > 0.0 && distance2 > 0.0).then(|| (wi, distance2 / cos))
+    }
+
     /// Density of [`sample_point`](Self::sample_point) over area (1/m²).
     #[inline]
     pub(crate) fn pdf_point(&self, triangle: u32, bary: (Real, Real)) -> Real {

@@ -154,37 +154,49 @@ impl Environment {
         (0..self.drawn.len()).map(own).sum::<Real>() + through
     }
 
-    /// A direction towards the light, and a point on its way: beyond the scene, or before a portal and so near it that
+    /// A direction towards light that enters the scene, and a fresh number in [0, 1).
+    #[inline]
+    pub fn sample_source(&self, choice: f64, at: [Real; 2]) -> Option<(Vec3, f64)> {
+        let (i, _, rest) = self.entering.sample(choice);
+        Some((self.lights[i].sample(Vec3::ZERO, at)?, rest))
+    }
+
+    /// A point on the way of light from a direction: beyond the scene, or before a portal and so near it that
     /// rounding does not make the way miss it. Things may stand before that.
     #[inline]
-    pub fn sample_emission(&self, choice: f64, at: [Real; 2], v: [Real; 2]) -> Option<(Vec3, Vec3)> {
-        let (i, _, rest) = self.entering.sample(choice);
-        let towards = self.lights[i].sample(Vec3::ZERO, at)?;
+    pub fn sample_entry(&self, towards: Vec3, choice: f64, v: [Real; 2]) -> Option<Vec3> {
         let Some(portals) = &self.portals else {
             let disk = concentric_disk(v.into()) * self.radius;
             let place = Frame::from_normal(towards).to_world(Vec3::new(disk.x, disk.y, self.radius));
-            return Some((towards, self.center + place));
+            return Some(self.center + place);
         };
-        let portal = portals.sample_point(rest, v);
+        let portal = portals.sample_point(choice, v);
         // What comes from the interior does not enter.
         if towards.dot(portal.n) >= 0.0 {
             return None;
         }
         // By the magnitude of the numbers that the point was made of: surfaces in the portal's plane are met for
         // sure, and rounding is what it was.
-        Some((towards, portal.p + towards * portal.magnitude))
+        Some(portal.p + towards * portal.magnitude)
     }
 
-    /// Densities of [`sample_emission`](Self::sample_emission) for light from a direction through a point.
+    /// Densities of [`sample_source`](Self::sample_source) and [`sample_entry`](Self::sample_entry) for light from a
+    /// direction through a point.
     #[inline]
     pub fn pdf_emission(&self, towards: Vec3, through: Vec3) -> EmissionPdf {
-        let part = |(i, light): (usize, &DistantLight)| {
-            self.entering.probability(i) * light.pdf(Vec3::ZERO, towards)
-        };
         let second = match &self.portals {
             None => INV_PI / (self.radius * self.radius),
             Some(portals) => portals.pdf_line(through, towards),
         };
-        EmissionPdf { first: self.lights.iter().enumerate().map(part).sum(), second }
+        EmissionPdf { first: self.pdf_source(towards), second }
+    }
+
+    /// Density (1/sr) of [`sample_source`](Self::sample_source).
+    #[inline]
+    pub fn pdf_source(&self, towards: Vec3) -> Real {
+        let part = |(i, light): (usize, &DistantLight)| {
+            self.entering.probability(i) * light.pdf(Vec3::ZERO, towards)
+        };
+        self.lights.iter().enumerate().map(part).sum()
     }
 }

@@ -92,6 +92,36 @@ pub struct LightSample {
     pub pdf_emission: EmissionPdf,
 }
 
+/// Where a light path begins: at a point of a lamp, or in a direction of the environment.
+#[derive(Clone, Copy, Debug)]
+pub struct Source {
+    /// Its place.
+    pub(crate) place: Place,
+    /// Density over the lamp's area (1/m²), or of the direction (1/sr); the choice of the light included.
+    pub(crate) pdf: Real,
+    /// Probability that a light path begins on the lamp, or in the environment.
+    pub chance: Real,
+}
+
+/// A [`Source`] as it is seen from a point.
+#[derive(Clone, Copy, Debug)]
+pub struct SourceView {
+    /// Unit direction towards it.
+    pub wi: Vec3,
+    /// The point on a lamp, with the normal of the side that is seen; `None` for the environment.
+    pub point: Option<EmitterPoint>,
+    /// The source's density in solid angle (1/sr).
+    pub pdf: Real,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Place {
+    /// Number of the lamp, and a point whose normal is that of the front.
+    Lamp(u32, EmitterPoint),
+    /// Unit direction towards the light, and a fresh number in [0, 1) to choose where it enters.
+    Environment(Vec3, f64),
+}
+
 /// Light that leaves a lamp or enters the scene from its environment.
 ///
 /// The two densities are of the first two vertices of a light path. Of a lamp they are those of the

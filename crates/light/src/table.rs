@@ -5,6 +5,8 @@
 //! gets to a receiver, least of all in a room: beside lamps it gets half of the draws, and half of the light paths
 //! begin with it. So whichever of the two matters, it has half of the samples that it would have alone.
 
+mod sources;
+
 use crate::area::AreaLight;
 use crate::environment::Environment;
 use crate::kinds::DistantLight;
@@ -164,23 +166,13 @@ impl LightTable {
         let lamp = &self.lamps[i];
         let mut point = lamp.sample_point_of(drawn.triangle as usize, at);
         let front = point.n;
-        let way = point.p - to.p;
-        let distance2 = way.length2();
-        let wi = way / distance2.sqrt();
-        let seen = -wi.dot(front);
-        if seen < 0.0 && lamp.is_two_sided() {
-            point.n = -front;
-        }
-        let cos = -wi.dot(point.n);
-        if cos <= 0.0 || distance2 == 0.0 {
-            return None;
-        }
+        let (wi, over_angle) = lamp.turn_towards(to.p, &mut point)?;
         let (triangle, bary) = (point.triangle, point.bary);
         let over_area = lamp.pdf_point_of(triangle, bary, (1.0 - self.share_of_draws) * probability);
         Some(LightSample {
             wi,
             radiance: lamp.emitted(triangle, bary, -wi, lambda),
-            pdf: over_area * distance2 / cos,
+            pdf: over_area * over_angle,
             pdf_emission: EmissionPdf {
                 first: self.pdf_sent(i, triangle, bary),
                 second: lamp.pdf_direction(triangle, front, -wi),
@@ -272,63 +264,6 @@ impl LightTable {
         let Some(environment) = &self.environment else { return EmissionPdf::NEVER };
         let pdf = environment.pdf_emission(towards, through);
         EmissionPdf { first: self.share_of_emission as Real * pdf.first, ..pdf }
-    }
-
-    /// Draws light that leaves a lamp or enters the scene: `u` as for [`sample`](Self::sample), `v`
-    /// chooses a direction or a place. `None` where there is none to be had.
-    #[inline]
-    pub fn sample_emission(
-        &self,
-        u: [Real; 4],
-        v: [Real; 2],
-        lambda: &SampledWavelengths,
-    ) -> Option<Emission> {
-        let at = [u[1], u[2]];
-        let rest = match self.choose(self.share_of_emission, u)? {
-            Chosen::Lamps(rest) => rest,
-            Chosen::Environment(rest) => return self.sample_emission_environment(rest, at, v, lambda),
-        };
-        let (i, _, rest) = self.by_power.sample(rest);
-        let lamp = &self.lamps[i];
-        let mut point = lamp.sample_point(rest, at)?;
-        let direction = lamp.sample_direction(&point, v);
-        let pdf = EmissionPdf {
-            first: self.pdf_sent(i, point.triangle, point.bary),
-            second: lamp.pdf_direction(point.triangle, point.n, direction),
-        };
-        if direction.dot(point.n) < 0.0 {
-            point.n = -point.n;
-        }
-        (pdf.second > 0.0).then(|| Emission {
-            origin: point.p,
-            radiance: lamp.emitted(point.triangle, point.bary, direction, lambda),
-            point: Some(point),
-            direction,
-            pdf,
-            lamp: i as u32,
-        })
-    }
-
-    #[inline]
-    fn sample_emission_environment(
-        &self,
-        choice: f64,
-        at: [Real; 2],
-        v: [Real; 2],
-        lambda: &SampledWavelengths,
-    ) -> Option<Emission> {
-        let environment = self.environment.as_ref()?;
-        let (towards, origin) = environment.sample_emission(choice, at, v)?;
-        let pdf = self.pdf_emission_environment(towards, origin);
-        // A scene without extent gets no light: the density over its area has no value.
-        (pdf.first > 0.0 && pdf.second > 0.0 && pdf.second.is_finite()).then(|| Emission {
-            origin,
-            point: None,
-            direction: -towards,
-            radiance: environment.radiance(towards, lambda),
-            pdf,
-            lamp: NO_LAMP,
-        })
     }
 
     /// Density, in the measure of `pdf.first`, with which [`sample`](Self::sample) draws the point or

@@ -29,6 +29,40 @@ fn corner() -> indigo_scene::Scene {
     ]))
 }
 
+/// A lamp out of focus before a lens, and one that is larger than its blur.
+fn lamps_in_the_lens() -> indigo_scene::Scene {
+    let lens = flat_camera([0.0, -4.0, 2.0], [0.0, 1.0, 0.0], 0.4)
+        .replace("<aperture_radius>1e-5</aperture_radius>", "<aperture_radius>0.1</aperture_radius>");
+    let square = |half: f64| {
+        let at = |x: f64, z: f64| [half * x, 0.0, half * z];
+        Mesh::polygon(vec![at(-1.0, -1.0), at(1.0, -1.0), at(1.0, 1.0), at(-1.0, 1.0)])
+    };
+    scene(&scene_file(&[
+        settings(8, ""),
+        lens,
+        grey("black", 0.0),
+        square(0.1).text("small", "black") + &mesh_light("small", &uniform(1e6), [-0.5, 0.0, 2.1], 1.0, ""),
+        square(0.5).text("large", "black") + &mesh_light("large", &uniform(1e4), [0.6, 0.5, 1.9], 1.0, ""),
+    ]))
+}
+
+/// What shines straight into the lens is found by the camera's ray and by light paths.
+#[test]
+fn both_strategies_of_one_edge_hold_one_light() {
+    let scene = lamps_in_the_lens();
+    let batches: Vec<Strategies> = (0..BATCHES).map(|seed| Strategies::gather(&scene, seed, 1)).collect();
+    let whole = Moments::of((0..BATCHES).map(|seed| light_of(&scene, seed, 1)));
+    assert!(whole.mean() > 0.0, "nothing is seen\nagain: {}", replay());
+    let mean = |s: u32, kind: usize| Moments::of(batches.iter().map(|b| b.mean(s, 1)[kind][1]));
+    let sum = Moments::of(batches.iter().map(|b| (0..2).map(|s| b.mean(s, 1)[1][1]).sum::<f64>()));
+    assert_same("weighted", &sum, &whole);
+    for s in 0..2 {
+        assert_same(&format!("{s} vertices of the light"), &mean(s, 0), &whole);
+        let share = mean(s, 1).mean() / whole.mean();
+        assert!(share > 0.1, "{s} vertices of the light have {share} of the weight");
+    }
+}
+
 #[test]
 fn rows_hold_one_light_and_weights_add_up_to_it() {
     let scene = corner();

@@ -12,6 +12,23 @@ use indigo_spectrum::{LanePdf, SampledWavelengths};
 /// Stands for the number 0, whose offset would be infinite: half the step of a random number.
 const LEAST: Real = 1.0 / (1u32 << 25) as Real;
 
+/// How far from its place a path's light falls.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Offset {
+    /// On the film, in its widths and heights.
+    pub on_film: Vec2,
+    /// Its density for each wavelength, over the hero's.
+    pub ratio: LanePdf,
+    /// The hero's, over the area of the film.
+    pub density: Real,
+}
+
+impl Offset {
+    /// Where nothing is deflected.
+    pub const NONE: Self =
+        Self { on_film: Vec2 { x: 0.0, y: 0.0 }, ratio: LanePdf::ONE, density: Real::INFINITY };
+}
+
 /// Draws offsets by the far field of an aperture.
 #[derive(Clone, Debug)]
 pub(crate) struct Deflection {
@@ -55,20 +72,20 @@ impl Deflection {
         }
     }
 
-    /// The offset on the film, in its widths and heights, for two numbers in [0, 1), and its density for
-    /// each wavelength over the hero's.
+    /// The offset for two numbers in [0, 1).
     #[inline]
-    pub fn sample(&self, u: Vec2, lambda: &SampledWavelengths) -> (Vec2, LanePdf) {
+    pub fn sample(&self, u: Vec2, lambda: &SampledWavelengths) -> Offset {
         let (f, pdf) = self.sample_cycles(u);
         let hero = lambda.lambda[0];
+        let cycle = self.cycle * hero;
         // Film positions count downwards.
-        let offset = Vec2::new(f.x * self.cycle.x, -f.y * self.cycle.y) * hero;
+        let offset = Vec2::new(f.x * cycle.x, -f.y * cycle.y);
         let mut ratio = LanePdf::ONE;
         for lane in 1..lambda.lambda.len() {
             let scale = hero / lambda.lambda[lane];
             ratio[lane] = self.density(f * scale) * scale * scale / pdf;
         }
-        (offset, ratio)
+        Offset { on_film: offset, ratio, density: pdf / (cycle.x * cycle.y) }
     }
 
     /// A frequency in cycles, and its density per square cycle.

@@ -1,20 +1,19 @@
 //! Scenes for the grid: small, each with something that one mode could get wrong.
 
+mod lens;
 mod lights;
 mod materials;
 mod media;
 
+pub use lens::*;
 pub use lights::*;
 pub use materials::*;
 pub use media::*;
 
 use super::SIDE;
+use super::common::scene;
 use super::common::shapes::{Mesh, add, cross, mesh_light, model};
-use super::common::text::{
-    background, camera, diffuse, flat_camera, grey, null, scene_file, settings, uniform,
-};
-use super::common::{scene, scene_with};
-use indigo_imaging::png;
+use super::common::text::{background, diffuse, flat_camera, grey, null, scene_file, settings, uniform};
 use indigo_scene::Scene;
 
 const SPECTRUM_D65: &str = "<blackbody><temperature>6500</temperature><gain>1e-9</gain></blackbody>";
@@ -113,74 +112,6 @@ pub fn environment_and_lamp() -> Scene {
         lamp(0.2, 1e5),
         vec![background(&uniform(1e3))],
     ])
-}
-
-/// A lens as wide as the room, focused before it, with natural vignetting.
-pub fn thin_lens_out_of_focus() -> Scene {
-    let lens = camera([0.0, -3.6, 0.0], [0.0, 1.0, 0.0], 0.42, "")
-        .replace("<aperture_radius>1e-5</aperture_radius>", "<aperture_radius>0.4</aperture_radius>")
-        .replace("<focus_distance>1</focus_distance>", "<focus_distance>2.5</focus_distance>");
-    build(&[common(lens), room(["white"; 4]), block("grey"), lamp(0.3, 1e5)])
-}
-
-/// Three blades, whose picture of what is out of focus no mode may turn over or stretch.
-pub fn blades_out_of_focus() -> Scene {
-    let blades = "<aperture_shape><generated><num_blades>3</num_blades><start_angle>0.2</start_angle><blade_offset>0.25</blade_offset><blade_curvature_radius>0.7</blade_curvature_radius></generated></aperture_shape>";
-    let lens = camera([0.0, -3.6, 0.0], [0.0, 1.0, 0.0], 0.42, blades)
-        .replace("<aperture_radius>1e-5</aperture_radius>", "<aperture_radius>0.4</aperture_radius>")
-        .replace("<focus_distance>1</focus_distance>", "<focus_distance>1.5</focus_distance>");
-    build(&[common(lens), room(["white"; 4]), block("grey"), lamp(0.3, 1e5)])
-}
-
-/// A grey picture of the least size that an aperture image may have.
-fn grey_picture(light: impl Fn(f64, f64) -> f64) -> Vec<u8> {
-    let place = |i: usize| (i as f64 + 0.5) / 512.0;
-    let codes: Vec<u8> =
-        (0..512 * 512).map(|i| (255.0 * light(place(i % 512), place(i / 512))).round() as u8).collect();
-    png::encode_grey(512, &codes).expect("a picture")
-}
-
-/// An aperture like no mirror image of its own, grey in part.
-pub fn image_out_of_focus() -> Scene {
-    let key = grey_picture(|x, y| match (x < 0.3, y < 0.4) {
-        (true, _) => 1.0,
-        (false, true) => 0.25 + 0.5 * x,
-        (false, false) => 0.0,
-    });
-    let lens = camera(
-        [0.0, -3.6, 0.0],
-        [0.0, 1.0, 0.0],
-        0.42,
-        "<aperture_shape><image><path>key.png</path></image></aperture_shape>",
-    )
-    .replace("<aperture_radius>1e-5</aperture_radius>", "<aperture_radius>0.4</aperture_radius>")
-    .replace("<focus_distance>1</focus_distance>", "<focus_distance>1.5</focus_distance>");
-    let parts = [common(lens), room(["white"; 4]), block("grey"), lamp(0.3, 1e5)].concat();
-    scene_with(&scene_file(&parts), [("key.png", key)])
-}
-
-/// A pinhole that spreads light over pixels, more of it the longer its wavelength.
-pub fn deflected_rays() -> Scene {
-    deflected("", [])
-}
-
-/// The same behind scratches, which spread it to the sides and aslant.
-pub fn deflected_by_dust() -> Scene {
-    let dust = grey_picture(|x, y| if (x * 9.0 + y * 4.0).fract() < 0.3 { 0.0 } else { 0.9 });
-    deflected("<obstacle_map>dust.png</obstacle_map>", [("dust.png", dust)])
-}
-
-fn deflected<const N: usize>(more: &str, files: [(&str, Vec<u8>); N]) -> Scene {
-    let [red, blue] =
-        ["0.8 0.1 0.1", "0.1 0.1 0.8"].map(|c| format!("<rgb><rgb>{c}</rgb><gamma>2.2</gamma></rgb>"));
-    let mut parts = common(camera([0.0, -3.6, 0.0], [0.0, 1.0, 0.0], 0.42, more));
-    parts[0] = parts[0].replace(
-        "<aperture_diffraction>false</aperture_diffraction>",
-        "<aperture_diffraction>true</aperture_diffraction><post_process_diffraction>false</post_process_diffraction>",
-    );
-    parts.extend([diffuse("red", &red), diffuse("blue", &blue)]);
-    let parts = [parts, room(["white", "red", "blue", "white"]), block("grey"), lamp(0.3, 1e5)].concat();
-    scene_with(&scene_file(&parts), files)
 }
 
 /// Vertex normals of a coarse ball lean far from its triangles' own.

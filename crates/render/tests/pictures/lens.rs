@@ -1,7 +1,7 @@
 //! The lens: focus, the shape of the aperture, what it diffracts, and bloom.
 
-use super::common::judge::{assert_near, assert_same};
-use super::common::shapes::{Mesh, model};
+use super::common::judge::{NITS_PER_UNIFORM, assert_is, assert_near, assert_same};
+use super::common::shapes::{Mesh, mesh_light, model};
 use super::common::text::{flat_camera, grey, null, scene_file, settings, uniform};
 use super::common::{film, scene, scene_with};
 use indigo_film::XyzImage;
@@ -9,6 +9,7 @@ use indigo_imaging::{Picture, develop, on_sensor, png};
 use indigo_math::{Real, Vec2};
 use indigo_scene::Scene;
 use indigo_testkit::stats::Moments;
+use std::f64::consts::PI;
 
 /// Side of the pictures.
 const SIDE: usize = 32;
@@ -119,6 +120,61 @@ fn coverage_is_of_things_and_not_of_light() {
         let covered: f32 = coverage(&sharp).iter().sum();
         assert_eq!(covered as usize, (LAMP[1] - LAMP[0]).pow(2), "what the lamp covers");
     }
+}
+
+/// A lamp of a centimetre out of focus, before a lens of 20 cm: each point of the disc sees it through
+/// A / (4 m / focus − 1)² of the lens, of π r². Light paths make an even disc of it, of which camera rays, one in 10,000 of
+/// which meets the lamp, show specks: with light paths the deviation of a pixel is 6 % here, without 100 % and more.
+#[test]
+fn a_small_lamp_out_of_focus_is_an_even_disc() {
+    let camera = flat_camera([0.0, 0.0, -4.0], [0.0, 0.0, 1.0], 0.3)
+        .replace("<aperture_radius>1e-5</aperture_radius>", "<aperture_radius>0.2</aperture_radius>");
+    let half = 0.005;
+    let mut scene = scene(&scene_file(&[
+        settings(SIDE as u32, "<splat_filter><box/></splat_filter>"),
+        camera,
+        grey("black", 0.0),
+        Mesh::square(half, 0.0).inside_out().text("lamp", "black"),
+        mesh_light("lamp", &uniform(1e9), [0.0; 3], 1.0, ""),
+    ]));
+    scene.transport.bidirectional = true;
+    let share = (2.0 * half).powi(2) / 9.0 / (PI * 0.2f64.powi(2));
+    let expected = 1e9 * NITS_PER_UNIFORM * share;
+    // The disc has a radius of 8 pixels.
+    let is_inside = |i: &usize| {
+        let [x, y] = [i % SIDE, i / SIDE].map(|c| c as f64 + 0.5 - 0.5 * SIDE as f64);
+        x.hypot(y) < 7.0
+    };
+    let disc = |seed| {
+        let picture = film(&scene, 200 + seed, 64).develop();
+        Moments::of((0..SIDE * SIDE).filter(is_inside).map(|i| f64::from(picture.pixels[i][1])))
+    };
+    let discs: Vec<Moments> = (0..8_u64).map(disc).collect();
+    assert_is("the disc", &Moments::of(discs.iter().map(Moments::mean)), expected, 1e-2);
+    for disc in &discs {
+        let deviation = disc.variance().sqrt() / expected;
+        assert!(deviation < 0.1, "pixels deviate by {deviation}");
+    }
+}
+
+/// What blades spread of a small lamp is found by light paths; of camera rays, few are deflected onto it.
+#[test]
+fn streaks_of_small_lamps_are_smooth() {
+    let width = |m: f64| format!("<width>{m}</width><height>{m}</height><spectrum>");
+    let radius = |m: f64| format!("<aperture_radius>{m:e}</aperture_radius>");
+    let text = lamp_text(&diffraction(false), &blades(3));
+    let small = text.replace(&width(1.5), &width(0.3)).replace(&radius(1e-5), &radius(3e-6));
+    let mut scene = scene(&small);
+    let deviation = |is_bidirectional| {
+        scene.transport.bidirectional = is_bidirectional;
+        let pictures: Vec<XyzImage> = (0..8).map(|seed| film(&scene, 300 + seed, 64).develop()).collect();
+        let far = (0..SIDE * SIDE).filter(|i| i / SIDE < SIDE / 3);
+        let pixels = far.map(|i| Moments::of(pictures.iter().map(|p| f64::from(p.pixels[i][1]))));
+        let sums = pixels.fold([0.0; 2], |[v, m], pixel| [v + pixel.variance(), m + pixel.mean()]);
+        sums[0].sqrt() / sums[1]
+    };
+    let [camera, light] = [false, true].map(deviation);
+    assert!(light < 0.2 * camera, "{light} is not much less than {camera}");
 }
 
 /// Light of the film is kept by the filter but for what leaves the picture.

@@ -20,6 +20,9 @@
 //! A vertex where the path went on by an event of delta kind cannot be joined, so strategies that
 //! would end there count nothing. The probability that stands for the delta's density is the
 //! same from both sides of the quotient wherever both are divided, so it cancels as the delta does.
+//! Where bump maps or smoothed normals move a delta away from where the surface itself would send it, light paths never
+//! go that way: the density back is 0. So no strategy counts that would have the light's path pass there, and those
+//! with the vertex on the camera's side share the weight among themselves.
 //! Roulette is left out of all densities, for every strategy alike.
 //!
 //! What turns a density in solid angle, over squared distance, into that of a vertex is its *reach*: a
@@ -167,6 +170,12 @@ impl Prefix {
         self.joined(LanePdf::splat(drawn)) + m(self.returns * (second * first)) * self.others
     }
 
+    /// The same where the path has come straight from the lens.
+    #[inline]
+    pub fn others_at_seen_light(&self, drawn: Real) -> LanePdf {
+        self.joined(LanePdf::splat(drawn))
+    }
+
     /// The strategy that joins vertex k − 1 to this one, which it finds with density `found`.
     #[inline]
     fn joined(&self, found: LanePdf) -> LanePdf {
@@ -191,10 +200,15 @@ impl Weight {
         Self { weight: own / (own + others.sum()), mean_ratio: ratio.mean() }
     }
 
-    /// Where there is but one strategy.
+    /// For light that was drawn and shines straight into the lens: `met` is the density (1/sr) with which the camera's ray
+    /// would have met it, and `drawn` that of drawing it, or what counts of that.
     #[inline]
-    pub fn only(ratio: LanePdf) -> Self {
-        Self { weight: 1.0, mean_ratio: ratio.mean() }
+    pub fn straight(ratio: LanePdf, met: LanePdf, drawn: Real) -> Self {
+        if drawn > 0.0 {
+            Self::new(ratio, m(ratio * (met / drawn)))
+        } else {
+            Self { weight: 0.0, mean_ratio: ratio.mean() }
+        }
     }
 
     /// For light that was drawn towards the end of a camera path: `met` is the density with which the

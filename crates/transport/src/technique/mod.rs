@@ -73,6 +73,9 @@ pub struct Splat {
 
 /// Somebody who looks at the single contributions of a sample.
 pub trait Record {
+    /// Whether anybody does: what has no weight is left out otherwise.
+    const LOOKS: bool = true;
+
     /// A contribution of strategy (s, t) at a film position of its own or at the camera ray's: its
     /// value as if there were no other strategy, and the weight that it got.
     fn contribution(
@@ -86,6 +89,8 @@ pub trait Record {
 
 /// Nobody looks.
 impl Record for () {
+    const LOOKS: bool = false;
+
     #[inline(always)]
     fn contribution(&mut self, _: (u32, u32), _: Option<Vec2>, _: SampledSpectrum, _: Real) {}
 }

@@ -64,17 +64,34 @@ pub(super) fn way_to_light(world: &World, from: &Vertex, light: &LightSample) ->
     }
 }
 
+/// The way from a point of the lens in direction `wi`, to a lamp or for ever; `None` where something stands between.
+#[inline]
+pub(super) fn way_from_lens(world: &World, origin: Vec3, wi: Vec3, to: Option<&Point>) -> Option<Passage> {
+    let (from, ray) = (Point::free(origin), Ray::new(origin, wi));
+    let media = world.scene.camera_media_along(&ray);
+    match to {
+        None => passage(world, &ray, 1.0, &media),
+        Some(to) => between(world, &from, &media, to),
+    }
+}
+
 /// The way from a vertex to a point in direction `wi`; `None` where something stands between.
 #[inline]
 pub(super) fn way(world: &World, from: &Vertex, wi: Vec3, to: &Point) -> Option<Passage> {
-    let along = to.p - from.point.p;
-    let origin = from.point.leave(world.scene, along);
+    between(world, &from.point, from.media_towards(wi), to)
+}
+
+/// The way from a point with some media on the side of another to that; `None` where something stands between.
+#[inline]
+fn between(world: &World, from: &Point, media: &MediumStack, to: &Point) -> Option<Passage> {
+    let along = to.p - from.p;
+    let origin = from.leave(world.scene, along);
     let target = to.leave(world.scene, -along);
     // t = 1 is the target itself, which does not count.
     let ray = Ray { o: origin, d: target - origin, t_min: 0.0, t_max: 1.0 };
     // The ray leaves its ends a little way off; what it passes counts from the ends themselves.
     let length = if world.has_media() { along.length() } else { 0.0 };
-    passage(world, &ray, length, from.media_towards(wi))
+    passage(world, &ray, length, media)
 }
 
 /// What light passes between the ray's ends, where a step of 1 along it is of some length in metres; `None`

@@ -51,7 +51,7 @@ pub fn sun_in_space() -> Scene {
 }
 
 /// A square lamp with texture coordinates, whose middle is somewhere.
-fn square_lamp(name: &str, middle: [f64; 3], more: &str) -> Vec<String> {
+pub(super) fn square_lamp(name: &str, middle: [f64; 3], more: &str) -> Vec<String> {
     let [mx, my, z] = middle;
     let corner = |x: i32, y: i32| {
         let at = |v: i32| 0.4 * f64::from(v);
@@ -73,7 +73,7 @@ fn square_lamp(name: &str, middle: [f64; 3], more: &str) -> Vec<String> {
     ]
 }
 
-const PROFILE: &str = "<ies_profile><path>lamp.ies</path></ies_profile>";
+pub(super) const PROFILE: &str = "<ies_profile><path>lamp.ies</path></ies_profile>";
 
 /// Intensity that depends on both angles, down to none along the ceiling.
 pub fn photometric_lamp() -> Scene {
@@ -92,10 +92,10 @@ fn lit_by_profile(z: f64, file: &[u8]) -> Scene {
     scene_with(&scene_file(&parts.concat()), [("lamp.ies", file.to_vec())])
 }
 
-const MAP: &str = "<texture><path>lamp.bmp</path><exponent>1</exponent><b>3</b></texture>";
+pub(super) const MAP: &str = "<texture><path>lamp.bmp</path><exponent>1</exponent><b>3</b></texture>";
 
 /// Two by two texels, one of them bright.
-fn picture() -> Vec<u8> {
+pub(super) fn picture() -> Vec<u8> {
     let mut picture = b"BM".to_vec();
     for word in [70_u32, 0, 54, 40, 2, 2] {
         picture.extend(word.to_le_bytes());

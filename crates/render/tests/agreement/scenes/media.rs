@@ -72,17 +72,17 @@ pub fn scattering_glass() -> Scene {
     in_room(vec![medium("m", 10, &milky), specular("glass", "m"), ball, background(&uniform(2e3))])
 }
 
+/// A box of coloured fog round the camera and the room.
+pub(super) fn thin_fog_everywhere() -> Vec<String> {
+    let thin = fog("f", &uniform(0.02), &rgb("0.1 0.2 0.3"), &henyey_greenstein(-0.3));
+    let all = cuboid("all", "fog", [3.0, 5.0, 3.0], [0.0; 3]);
+    [vec![thin, specular("fog", "f")], all].concat()
+}
+
 /// The camera, the room and its lamp are in fog.
 pub fn camera_inside_a_medium() -> Scene {
-    let mut parts = vec![
-        fog("f", &uniform(0.02), &rgb("0.1 0.2 0.3"), &henyey_greenstein(-0.3)),
-        specular("fog", "f"),
-        clear("g", 20, 1.5),
-        specular("glass", "g"),
-        sphere([0.2, 0.2, -0.5], 0.3, "glass"),
-    ];
-    parts.extend(cuboid("all", "fog", [3.0, 5.0, 3.0], [0.0; 3]));
-    in_room(parts)
+    let ball = [clear("g", 20, 1.5), specular("glass", "g"), sphere([0.2, 0.2, -0.5], 0.3, "glass")];
+    in_room([thin_fog_everywhere(), ball.to_vec()].concat())
 }
 
 /// A lamp that fills a room through a ball of scattering glass round it.

@@ -1,10 +1,11 @@
 //! Joints of a camera path's vertex: to a light, and to vertices of the light's path.
 
 use super::light_path::LightPath;
+use super::straight::Seen;
 use super::{CameraVertex, Sample};
 use crate::sampler::{Block, PrimarySample};
 use crate::technique::Record;
-use crate::technique::media::{Passage, World};
+use crate::technique::media::Passage;
 use crate::technique::mis::{Prefix, Step, Weight};
 use crate::technique::surface::emitter_hit;
 use crate::technique::visibility::{way, way_to_light};
@@ -145,12 +146,13 @@ pub(super) struct Arrived<'a> {
 
 /// Strategy (0, t): the path meets a surface that may be a lamp's.
 pub(super) fn meet_lamp(
-    world: &World,
+    sample: &Sample,
     path: &Arrived,
     at: &SurfacePoint,
     wo: Vec3,
     record: &mut impl Record,
 ) -> SampledSpectrum {
+    let world = &sample.world;
     let lights = &world.scene.lights;
     let cos = wo.dot(at.n_g).abs();
     let hit = emitter_hit(at);
@@ -158,23 +160,35 @@ pub(super) fn meet_lamp(
     let Some(light) = light else { return SampledSpectrum::ZERO };
     let distance2 = (at.p - path.from.p).length2();
     let prefix = path.step.arrive(distance2, LanePdf::splat(cos), path.passage.free);
-    let drawn = lights.pdf_object(&hit, path.from) * cos / distance2;
     let pdf = lights.pdf_emission_object(&hit, wo);
-    found(path, &prefix, light, [drawn, pdf.first, pdf.second], record)
+    let over_area = cos / distance2;
+    let drawn = if path.depth == 0 {
+        let (pdf, chance) = (pdf.first / over_area, lights.chance_of_object(hit.object));
+        Seen { wi: -wo, distance: distance2.sqrt(), pdf, chance }.counted_pdf(sample)
+    } else {
+        lights.pdf_object(&hit, path.from)
+    };
+    found(path, &prefix, light, [drawn * over_area, pdf.first, pdf.second], record)
 }
 
 /// Strategy (0, t): the path leaves the scene.
 pub(super) fn meet_environment(
-    world: &World,
+    sample: &Sample,
     path: &Arrived,
     towards: Vec3,
     record: &mut impl Record,
 ) -> SampledSpectrum {
+    let world = &sample.world;
     let lights = &world.scene.lights;
     let Some(light) = lights.environment(towards, world.lambda) else { return SampledSpectrum::ZERO };
     let prefix = path.step.arrive_at_environment(path.passage.free);
-    let drawn = lights.pdf_environment(path.from, towards);
     let pdf = lights.pdf_emission_environment(towards, path.from.p);
+    let drawn = if path.depth == 0 {
+        let chance = lights.chance_of_environment();
+        Seen { wi: towards, distance: Real::INFINITY, pdf: pdf.first, chance }.counted_pdf(sample)
+    } else {
+        lights.pdf_environment(path.from, towards)
+    };
     found(path, &prefix, light, [drawn, pdf.first, pdf.second], record)
 }
 
@@ -187,11 +201,12 @@ fn found(
     record: &mut impl Record,
 ) -> SampledSpectrum {
     let value = path.beta * path.passage.weight() * light;
-    let weight = if path.depth == 0 {
-        Weight::only(prefix.ratio)
+    let others = if path.depth == 0 {
+        prefix.others_at_seen_light(drawn)
     } else {
-        Weight::new(prefix.ratio, prefix.others_at_light(drawn, first, second))
+        prefix.others_at_light(drawn, first, second)
     };
+    let weight = Weight::new(prefix.ratio, others);
     record.contribution((0, path.depth + 2), None, value / weight.mean_ratio, weight.weight);
     value * weight.factor()
 }

@@ -1,5 +1,6 @@
 //! The path of light from a lamp or the environment, joined to the lens wherever it scatters.
 
+use super::straight::join_source;
 use super::{ROULETTE_FROM, Sample};
 use crate::sampler::{Block, PrimarySample};
 use crate::technique::flight::{Blocks, Flight};
@@ -66,9 +67,9 @@ impl LightPath {
         let scene = world.scene;
         let u = numbers.block(Block::EMISSION);
         let [_, _, v0, v1] = numbers.block(Block::LENS);
-        let Some(emission) = scene.lights.sample_emission(u, [v0, v1], world.lambda) else {
-            return;
-        };
+        let Some(source) = scene.lights.sample_source(u) else { return };
+        self.splats.extend(join_source(sample, &source, self.film_density, record));
+        let Some(emission) = scene.lights.emit(&source, [v0, v1], world.lambda) else { return };
         let mut beta = emission.throughput();
         let initial = beta.max_lane();
         if beta.is_black() {
@@ -140,13 +141,9 @@ impl LightPath {
             return;
         }
         let wi = to_lens / distance2.sqrt();
-        let Some(film) = scene.camera.film_position(camera.origin, -wi) else { return };
-        // Where the light falls that the lens sends to `film.position` when it is deflected.
-        let position = film.position - camera.offset;
         // Only what falls on the film is worth a ray.
-        if !(position.x >= 0.0 && position.x <= 1.0 && position.y >= 0.0 && position.y <= 1.0) {
-            return;
-        }
+        let Some(film) = sample.on_film(-wi) else { return };
+        let position = film.position;
         let scattered = light.vertex.eval(wi, Mode::Importance);
         if scattered.f_cos.is_black() {
             return;

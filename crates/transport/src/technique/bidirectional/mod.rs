@@ -8,11 +8,12 @@
 //! - (s, t): a vertex of each is joined to one of the other;
 //! - (s, 1): a vertex of the light's path is joined to the lens and falls anywhere on the film.
 //!
-//! The lens is no surface that light could meet by chance, so there is no t = 0. What shines straight
-//! into the lens is left to (0, 2). Weights are those of `mis`.
+//! The lens is no surface that light could meet by chance, so there is no t = 0. Weights are those of `mis`, and of
+//! `straight` for light that shines straight into the lens.
 
 mod joints;
 mod light_path;
+mod straight;
 
 use super::flight::{Blocks, Flight};
 use super::media::{World, WorldMemory};
@@ -20,10 +21,10 @@ use super::mis::{Prefix, Step};
 use super::vertex::Vertex;
 use super::{DIRECT, Events, PathSample, Record, Splat};
 use crate::sampler::{Block, PrimarySample};
-use indigo_camera::CameraRay;
+use indigo_camera::{CameraRay, FilmPosition};
 use indigo_geom::Ray;
 use indigo_light::Receiver;
-use indigo_math::Real;
+use indigo_math::{Real, Vec3};
 use indigo_scatter::Mode;
 use indigo_scene::Scene;
 use indigo_spectrum::{SampledSpectrum, SampledWavelengths};
@@ -45,6 +46,18 @@ struct Sample<'a> {
     world: World<'a>,
     camera: &'a CameraRay,
     events: Events,
+}
+
+impl Sample<'_> {
+    /// Where light falls that comes from a unit direction to the sample's point of the lens, and is deflected there;
+    /// `None` where that is beside the film.
+    #[inline]
+    fn on_film(&self, from: Vec3) -> Option<FilmPosition> {
+        let film = self.world.scene.camera.film_position(self.camera.origin, from)?;
+        let position = film.position - self.camera.offset;
+        let is_on = |x: Real| (0.0..=1.0).contains(&x);
+        (is_on(position.x) && is_on(position.y)).then_some(FilmPosition { position, ..film })
+    }
 }
 
 /// A vertex of the camera's path.
@@ -118,13 +131,13 @@ fn trace_camera(
         let arrival = flight.fly_to_vertex(world, numbers, Blocks::Camera, &mut number, |passage, at, wo| {
             if events.holds(depth) {
                 let arrived = Arrived { step: &step, from: &from, beta, passage, depth };
-                radiance[kind(depth)] += meet_lamp(world, &arrived, at, wo, record);
+                radiance[kind(depth)] += meet_lamp(sample, &arrived, at, wo, record);
             }
         });
         let arrived = Arrived { step: &step, from: &from, beta, passage: &flight.passage, depth };
         let Some((vertex, u)) = arrival else {
             if events.holds(depth) {
-                radiance[kind(depth)] += meet_environment(world, &arrived, flight.ray.d, record);
+                radiance[kind(depth)] += meet_environment(sample, &arrived, flight.ray.d, record);
             }
             break;
         };

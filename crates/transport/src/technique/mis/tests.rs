@@ -4,10 +4,12 @@ use super::*;
 use indigo_math::{Float, Vec3, rng::Rng};
 use indigo_spectrum::{LANES, SampledSpectrum};
 
-/// Densities of a path of vertices 0 (on the light) to n − 1 (on the lens), all by lane where they may be.
+/// Densities of a path of vertices 0 (on the light, or a direction of the environment) to n − 1 (on the lens), all by lane where they may be.
 struct Path {
     n: usize,
-    /// Of the emission's point and direction, and of drawing the point for vertex 1 (1/m²).
+    is_distant: bool,
+    /// Of the emission's point and direction, and of drawing the point for vertex 1 (1/m²); or of the emission's direction
+    /// and place, and of drawing the direction (1/sr).
     first: Real,
     second: Real,
     drawn: Real,
@@ -39,6 +41,7 @@ impl Path {
     fn random(rng: &mut Rng, n: usize) -> Self {
         let mut path = Self {
             n,
+            is_distant: rng.next_f64() < 0.5,
             first: number(rng),
             second: number(rng),
             drawn: number(rng),
@@ -52,6 +55,11 @@ impl Path {
             free: (0..n).map(|_| lanes(rng)).collect(),
         };
         path.lens = path.lens.ratio_to_hero();
+        if path.is_distant {
+            // What has no place has no distance, and no surface.
+            path.distance2[0] = 1.0;
+            path.reach[0][1] = LanePdf::ONE;
+        }
         for i in 1..n - 1 {
             if path.is_delta[i] {
                 // A mirror or glass is as likely to be left one way as the other.
@@ -119,7 +127,12 @@ impl Path {
         let cos = self.reach[0][1].hero();
         let mut step = Step::from_light(self.first, self.second, cos);
         for j in 1.. {
-            let mut prefix = step.arrive(self.distance2[j - 1], self.reach[j][0], self.free[j - 1]);
+            let (reach, free) = (self.reach[j][0], self.free[j - 1]);
+            let mut prefix = if self.is_distant && j == 1 {
+                step.arrive_from_environment(reach, free)
+            } else {
+                step.arrive(self.distance2[j - 1], reach, free)
+            };
             if j == 1 {
                 prefix.before *= self.drawn / self.first;
             }
@@ -135,7 +148,11 @@ impl Path {
     fn camera_prefix(&self, k: usize) -> Prefix {
         let mut step = Step::from_camera(self.camera, self.lens);
         for j in (0..self.n - 1).rev() {
-            let prefix = step.arrive(self.distance2[j], self.reach[j][1], self.free[j]);
+            let prefix = if self.is_distant && j == 0 {
+                step.arrive_at_environment(self.free[j])
+            } else {
+                step.arrive(self.distance2[j], self.reach[j][1], self.free[j])
+            };
             if j == k {
                 return prefix;
             }
@@ -148,13 +165,21 @@ impl Path {
     fn weight(&self, s: usize) -> Weight {
         if s == 0 {
             let prefix = self.camera_prefix(0);
-            return Weight::new(prefix.ratio, prefix.others_at_light(self.drawn, self.first, self.second));
+            let others = if self.n == 2 {
+                prefix.others_at_seen_light(self.drawn)
+            } else {
+                prefix.others_at_light(self.drawn, self.first, self.second)
+            };
+            return Weight::new(prefix.ratio, others);
         }
         // The joined vertices are s − 1 and s.
         let free = self.free[s - 1] / self.distance2[s - 1];
         if s == 1 {
-            let prefix = self.camera_prefix(1);
             let in_angle = self.drawn * self.distance2[0] / self.reach[0][1].hero();
+            if self.n == 2 {
+                return Weight::straight(self.lens, self.free[0] * self.camera, in_angle);
+            }
+            let prefix = self.camera_prefix(1);
             let found = self.reach[1][0] * free * self.second;
             let met = self.back[1] * self.free[0] / in_angle;
             let others = prefix.others(found, self.onwards[1]);
@@ -179,7 +204,7 @@ fn weights_are_those_of_explicit_products_and_sum_to_one() {
     let power = |p: f64| if SQUARED { p * p } else { p };
     let mut compared = 0;
     for case in 0..3000 {
-        let path = Path::random(&mut rng, 3 + case % 7);
+        let path = Path::random(&mut rng, 2 + case % 8);
         let densities: Vec<_> = path.strategies().map(|s| (s, path.density(s))).collect();
         let sum: f64 = densities.iter().flat_map(|(_, p)| p).map(|p| power(*p)).sum();
         let mut total = 0.0;
