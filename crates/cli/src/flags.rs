@@ -48,6 +48,8 @@ pub struct Arguments {
     pub output: Option<String>,
     /// Only show what each strategy adds, by so many samples per pixel.
     pub strategies: Option<u32>,
+    /// Only tell a sample: seed, unit and its number there.
+    pub replay: Option<[u64; 3]>,
     /// Only check.
     pub check: bool,
     /// Only list the settings.
@@ -222,6 +224,13 @@ fn apply(flag: &Flag, value: String, parsed: &mut Arguments) -> Result<(), Strin
             let passes = value.parse().ok().filter(|n: &u32| *n > 0);
             parsed.strategies =
                 Some(passes.ok_or_else(|| format!("-strategies needs a whole number above 0, not {value}"))?);
+        }
+        Action::Replay => {
+            let numbers: Vec<u64> = value.split(':').map_while(|n| n.parse().ok()).collect();
+            let is_whole = numbers.len() == value.split(':').count();
+            parsed.replay = Some(numbers.try_into().ok().filter(|_| is_whole).ok_or_else(|| {
+                format!("-replay needs three whole numbers SEED:UNIT:INDEX, such as 0:12:345, not {value}")
+            })?);
         }
         Action::Check => parsed.check = true,
         Action::PrintSettings => parsed.print_settings = true,

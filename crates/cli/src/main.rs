@@ -123,6 +123,7 @@ fn run(arguments: &Arguments, console: &mut Console) -> u8 {
     }
     match loaded.scene {
         Some(scene) => match (arguments.strategies, named) {
+            _ if arguments.replay.is_some() => tell_sample(&scene, arguments, console),
             (Some(passes), Some(picture)) => show_strategies(&scene, arguments, passes, &picture, console),
             (_, named) => render::render(scene, &read, arguments, saved, named, console),
         },
@@ -148,6 +149,18 @@ fn show_strategies(
         Err(error) => {
             console.error(&error.to_string());
             FAILED
+        }
+    }
+}
+
+/// Prints a sample; the exit status.
+fn tell_sample(scene: &Scene, arguments: &Arguments, console: &mut Console) -> u8 {
+    let [seed, unit, index] = arguments.replay.unwrap_or_default();
+    match indigo_render::replay(scene, seed, unit, index) {
+        Some(replay) => answer(&replay.to_string(), console),
+        None => {
+            console.say(&format!("error: unit {unit} has no sample {index}"));
+            BAD_INPUT
         }
     }
 }

@@ -24,3 +24,5 @@ mod worker;
 pub use options::{Halt, Options};
 pub use progress::Progress;
 pub use session::{Event, HaltReason, Session, SessionError};
+
+pub use indigo_transport::replay::replay;

@@ -131,8 +131,9 @@ fn measure(scene: &Scene) -> [Moments; 3] {
                 sums[1] += luminance(&found(scene, &at, &shading, scattering, &lambda));
             }
             // The same path cut before it scatters holds what shines straight into the lens.
-            let mut traced =
-                |depth| tracer.trace(scene, &mut sample, &lambda, &camera, Events::up_to(depth)).radiance();
+            let mut traced = |depth| {
+                tracer.trace(scene, &mut sample, &lambda, &camera, Events::up_to(depth), &mut ()).radiance()
+            };
             sums[2] += luminance(&(traced(1) - traced(0)));
         }
         for (m, sum) in moments.iter_mut().zip(sums) {
@@ -235,7 +236,7 @@ fn luminance_of_paths(scene: &Scene, seed: u64) -> f64 {
         let [x, y, u, _] = sample.block(Block::FILM);
         let lambda = SampledWavelengths::sample(u);
         let camera = scene.camera.ray(Vec2::new(x, y), Vec2::new(0.5, 0.5));
-        let found = tracer.trace(scene, &mut sample, &lambda, &camera, Events::up_to(100));
+        let found = tracer.trace(scene, &mut sample, &lambda, &camera, Events::up_to(100), &mut ());
         sum += f64::from(Sensor::new(&lambda).xyz(&found.radiance())[1]);
     }
     sum / f64::from(SAMPLES)

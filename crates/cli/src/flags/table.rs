@@ -27,6 +27,8 @@ pub enum Action {
     Unpack,
     /// Writes what each strategy adds.
     Strategies,
+    /// Tells a sample in words.
+    Replay,
     /// Reads and reports, without rendering.
     Check,
     /// Lists the settings.
@@ -157,6 +159,12 @@ pub static FLAGS: &[Flag] = &[
         Some("N"),
         Action::Strategies,
         "For developers: write to -o, instead of the picture, a pyramid of small pictures of what each strategy of bidirectional path tracing adds, by N samples per pixel. Rows hold paths of 1 to 7 edges, columns those made with 0 to 7 vertices from the light; on the left as if there were no other strategy, on the right as they are weighted.",
+    ),
+    flag(
+        "replay",
+        Some("SEED:UNIT:INDEX"),
+        Action::Replay,
+        "For developers: print a single sample of the render, instead of rendering: where it falls, its wavelengths, its vertices, and what each strategy adds. Units are numbered from 0, and a unit's samples, too.",
     ),
     flag("check", None, Action::Check, "Read the scene and report what is wrong with it, without rendering."),
     flag(

@@ -48,6 +48,10 @@ fn mistakes_get_a_helpful_answer() {
     assert_eq!(error(&["--check=1"]), "-check takes no value");
     assert_eq!(error(&["-n", "m"]), "-n is not in this version yet");
     assert!(error(&["-seed", "-3"]).contains("whole number"));
+    for value in ["1", "1:2", "1:2:3:4", "1:2:x", "1:2:-3"] {
+        assert!(error(&["a.igs", "-replay", value]).contains("SEED:UNIT:INDEX"), "{value}");
+    }
+    assert_eq!(parsed(&["a.igs", "-replay", "1:2:3"]).unwrap().replay, Some([1, 2, 3]));
 }
 
 #[test]

@@ -6,7 +6,7 @@
 use super::Layers;
 use super::region::Region;
 use crate::sampler::{Block, PrimarySample, SobolSample};
-use crate::technique::{Events, Tracer};
+use crate::technique::{Events, Record, Tracer};
 use indigo_film::{FilmDelta, FilmFilter};
 use indigo_math::{Float, Real, Vec2, rng};
 use indigo_scene::Scene;
@@ -86,12 +86,13 @@ impl Independent {
         unit: u64,
         tracer: &mut Tracer,
         delta: &mut FilmDelta,
+        record: &mut impl Record,
     ) -> u64 {
         let pass = unit / self.units_per_pass();
         let [columns, rows] = self.tile(unit);
         for y in rows {
             for x in columns.clone() {
-                self.render_sample(scene, [x, y], pass, tracer, delta);
+                self.render_sample(scene, [x, y], pass, tracer, delta, record);
             }
         }
         self.samples_of(unit)
@@ -121,6 +122,7 @@ impl Independent {
         pass: u64,
         tracer: &mut Tracer,
         delta: &mut FilmDelta,
+        record: &mut impl Record,
     ) {
         let size = self.region.size;
         let [x, y] = self.internal_pixel(pixel, pass);
@@ -133,7 +135,7 @@ impl Independent {
             on_film.position.x / size.internal_width() as Real,
             on_film.position.y / size.internal_height() as Real,
         );
-        let found = tracer.trace(scene, &mut numbers, position, self.events, &mut ());
+        let found = tracer.trace(scene, &mut numbers, position, self.events, record);
         let alpha = if scene.camera.deflects() {
             Real::from(u8::from(tracer.covers(scene, &mut numbers, position)))
         } else {

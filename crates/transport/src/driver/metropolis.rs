@@ -18,7 +18,7 @@ use super::chain::{ChainSample, Mutation};
 use super::region::Region;
 use super::seeds::{self, Seeds};
 use crate::sampler::{Block, PrimarySample};
-use crate::technique::{Events, Tracer};
+use crate::technique::{Events, Record, Tracer};
 use indigo_film::{FilmDelta, FilmFilter};
 use indigo_math::sobol::radical_inverse_2;
 use indigo_math::{Vec2, rng};
@@ -116,6 +116,11 @@ impl Metropolis {
         ((unit - self.first) % CHAINS % 2) as usize
     }
 
+    /// The first unit of the chain that one belongs to.
+    pub(super) fn first_of_chain(&self, unit: u64) -> u64 {
+        self.first + (unit - self.first) % CHAINS
+    }
+
     /// Does a unit: adds its splats to `delta`, and says how many mutations they were.
     pub(super) fn render_unit(
         &self,
@@ -123,6 +128,7 @@ impl Metropolis {
         unit: u64,
         tracer: &mut Tracer,
         delta: &mut FilmDelta,
+        record: &mut impl Record,
     ) -> u64 {
         let begun = unit - self.first;
         let (number, turn) = (begun % CHAINS, begun / CHAINS);
@@ -144,7 +150,7 @@ impl Metropolis {
             // Numbers that no seed has had.
             let first = self.seeds.per_block + turn * MUTATIONS;
             for step in first..first + MUTATIONS {
-                run.mutate(&mut chain, step);
+                run.mutate(&mut chain, step, record);
                 // Counted one by one, so that what a unit that fails leaves behind is counted rightly.
                 run.count(chain.is_started);
             }
@@ -195,13 +201,19 @@ impl Run<'_> {
 
     /// Traces a proposal with the randomness that a key and a step name, and says how many contributions were refused
     /// since they are no colours.
-    fn trace(&mut self, chain: &mut Chain, [key, step]: [u64; 2], is_large: bool) -> u64 {
+    fn trace(
+        &mut self,
+        chain: &mut Chain,
+        [key, step]: [u64; 2],
+        is_large: bool,
+        record: &mut impl Record,
+    ) -> u64 {
         let mutation = Mutation { max_change: self.driver.settings.max_change, key };
         let mut numbers = chain.sample.propose(mutation, step, is_large);
         let [u0, u1, ..] = numbers.block(Block::FILM);
         let region = &self.driver.region;
         let position = region.position([u0, u1]);
-        let found = self.tracer.trace(self.scene, &mut numbers, position, self.driver.events, &mut ());
+        let found = self.tracer.trace(self.scene, &mut numbers, position, self.driver.events, record);
         let state = &mut chain.proposal;
         state.splats.clear();
         (state.target, state.weight, state.refused) = (0.0, 0.0, 0);
@@ -233,7 +245,7 @@ impl Run<'_> {
             let key = driver.key(number as u64);
             let mut block = seeds::Block { targets: vec![], refused: 0 };
             for step in 0..driver.seeds.per_block {
-                block.refused += self.trace(&mut scratch, [key, step], true);
+                block.refused += self.trace(&mut scratch, [key, step], true, &mut ());
                 block.targets.push(scratch.proposal.target);
             }
             block
@@ -255,17 +267,17 @@ impl Run<'_> {
         let shift = rng::Rng::new(rng::key(&[driver.seed, driver.first, pool as u64, 1])).next_f64();
         let place = radical_inverse_2(number as u32 / pools as u32);
         if let Some((block, step)) = driver.seeds.draw(pool, (shift + place).fract()) {
-            self.trace(chain, [driver.key(block as u64), step], true);
+            self.trace(chain, [driver.key(block as u64), step], true, &mut ());
             chain.accept();
             chain.is_started = true;
         }
     }
 
-    fn mutate(&mut self, chain: &mut Chain, step: u64) {
+    fn mutate(&mut self, chain: &mut Chain, step: u64, record: &mut impl Record) {
         let settings = &self.driver.settings;
         let mut rng = rng::Rng::new(rng::key(&[self.key, step, 2]));
         let is_large = !chain.is_started || rng.next_f64() < settings.large_mutation_prob;
-        let refused = self.trace(chain, [self.key, step], is_large);
+        let refused = self.trace(chain, [self.key, step], is_large, record);
         self.delta.refuse(refused);
         let (proposed, current) = (chain.proposal.target, chain.current.target);
         if is_large {

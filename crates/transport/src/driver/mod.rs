@@ -6,7 +6,7 @@ mod metropolis;
 mod region;
 mod seeds;
 
-use crate::technique::{DIRECT, Events, Tracer};
+use crate::technique::{DIRECT, Events, Record, Tracer};
 use independent::Independent;
 use indigo_film::{FilmDelta, LayerKind};
 use indigo_scene::Scene;
@@ -256,16 +256,41 @@ impl Driver {
     /// Does a unit: adds its samples to `delta`, a film of [`layers`](Self::layers), and says how many
     /// they were.
     pub fn render_unit(&self, scene: &Scene, unit: u64, tracer: &mut Tracer, delta: &mut FilmDelta) -> u64 {
+        self.render_unit_recorded(scene, unit, tracer, delta, &mut ())
+    }
+
+    /// The same under somebody's eyes, who sees the unit's samples one after another.
+    pub fn render_unit_recorded(
+        &self,
+        scene: &Scene,
+        unit: u64,
+        tracer: &mut Tracer,
+        delta: &mut FilmDelta,
+        record: &mut impl Record,
+    ) -> u64 {
         match &self.parts {
-            Parts::Independent(driver) => driver.render_unit(scene, unit, tracer, delta),
-            Parts::Metropolis(driver) => driver.render_unit(scene, unit, tracer, delta),
+            Parts::Independent(driver) => driver.render_unit(scene, unit, tracer, delta, record),
+            Parts::Metropolis(driver) => driver.render_unit(scene, unit, tracer, delta, record),
             Parts::Hybrid(direct, indirect) => {
                 if unit.is_multiple_of(2) {
-                    direct.render_unit(scene, unit / 2, tracer, delta)
+                    direct.render_unit(scene, unit / 2, tracer, delta, record)
                 } else {
-                    indirect.render_unit(scene, unit / 2, tracer, delta)
+                    indirect.render_unit(scene, unit / 2, tracer, delta, record)
                 }
             }
         }
+    }
+
+    /// The units on which the samples of one depend, in the order in which they are to be done: those of its chain, if
+    /// it is one's.
+    pub fn units_before(&self, unit: u64) -> impl Iterator<Item = u64> {
+        let (first, step) = match &self.parts {
+            Parts::Metropolis(driver) => (driver.first_of_chain(unit), CHAINS),
+            Parts::Hybrid(_, driver) if !unit.is_multiple_of(2) => {
+                (2 * driver.first_of_chain(unit / 2) + 1, 2 * CHAINS)
+            }
+            _ => (unit, 1),
+        };
+        (first..unit).step_by(step as usize)
     }
 }

@@ -13,8 +13,8 @@ mod visibility;
 
 pub use tracer::{Found, Tracer};
 
-use indigo_math::{Real, Vec2};
-use indigo_spectrum::SampledSpectrum;
+use indigo_math::{Real, Vec2, Vec3};
+use indigo_spectrum::{SampledSpectrum, SampledWavelengths};
 
 /// Which paths count, by their number of scattering events between camera and light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,10 +71,25 @@ pub struct Splat {
     pub is_indirect: bool,
 }
 
+/// The ends of a path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// The lens.
+    Camera,
+    /// A lamp, or the environment.
+    Light,
+}
+
 /// Somebody who looks at the single contributions of a sample.
 pub trait Record {
     /// Whether anybody does: what has no weight is left out otherwise.
     const LOOKS: bool = true;
+
+    /// A sample begins: where on the film its camera ray comes from, from (0, 0), top left, to (1, 1), and the wavelengths.
+    fn begin(&mut self, _position: Vec2, _lambda: &SampledWavelengths) {}
+
+    /// A path from one end comes to a point at which it is scattered, render space, on a surface or in a medium.
+    fn vertex(&mut self, _from: End, _p: Vec3, _is_on_surface: bool) {}
 
     /// A contribution of strategy (s, t) at a film position of its own or at the camera ray's: its
     /// value as if there were no other strategy, and the weight that it got.

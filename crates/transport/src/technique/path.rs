@@ -12,7 +12,7 @@ use super::media::{Passage, World, WorldMemory};
 use super::surface::emitter_hit;
 use super::vertex::Vertex;
 use super::visibility::way_to_light;
-use super::{DIRECT, Events, PathSample};
+use super::{DIRECT, End, Events, PathSample, Record};
 use crate::sampler::{Block, PrimarySample};
 use indigo_camera::CameraRay;
 use indigo_geom::{Ray, SurfacePoint};
@@ -84,25 +84,36 @@ impl Path {
     }
 
     /// Adds light that the ray itself met after a passage, which light sampling would draw with
-    /// `pdf_light` (1/sr).
+    /// `pdf_light` (1/sr). Gives it as if there were no other strategy, and its weight.
     #[inline]
     fn add_found(
         &mut self,
         passage: &Passage,
         light: SampledSpectrum,
         pdf_light: impl FnOnce(&LastScatter) -> Real,
-    ) {
+    ) -> Contribution {
         let weight = self.last.map_or(1.0, |l| l.weight(passage, pdf_light(&l)));
         let ratio = self.ratio * passage.free.ratio_to_hero();
-        self.radiance += self.beta * passage.weight() * light * (weight / ratio.mean());
+        let value = self.beta * passage.weight() * light;
+        self.radiance += value * (weight / ratio.mean());
+        (value / ratio.mean(), weight)
     }
 
-    /// Adds light that was drawn from the lights at a vertex, with density `pdf_light`, and comes by a passage.
+    /// Adds light that was drawn from the lights at a vertex, with density `pdf_light`, and comes by a passage; gives the
+    /// same.
     #[inline]
-    fn add_drawn(&mut self, value: SampledSpectrum, passage: &Passage, pdf_light: Real, pdf: LanePdf) {
+    fn add_drawn(
+        &mut self,
+        value: SampledSpectrum,
+        passage: &Passage,
+        pdf_light: Real,
+        pdf: LanePdf,
+    ) -> Contribution {
         let prefix = self.ratio.mean();
         let weight = power_heuristic(prefix * pdf_light, (self.ratio * pdf * passage.free).mean());
-        self.radiance += self.beta * value * passage.transmittance * (weight / (prefix * pdf_light));
+        let value = self.beta * value * passage.transmittance;
+        self.radiance += value * (weight / (prefix * pdf_light));
+        (value / (prefix * pdf_light), weight)
     }
 
     /// Arrives at a vertex.
@@ -152,12 +163,19 @@ impl PathTracer {
         lambda: &SampledWavelengths,
         camera: &CameraRay,
         events: Events,
+        record: &mut impl Record,
     ) -> PathSample {
-        trace(&self.memory.world(scene, lambda), sample, camera, events)
+        trace(&self.memory.world(scene, lambda), sample, camera, events, record)
     }
 }
 
-fn trace(world: &World, sample: &mut impl PrimarySample, camera: &CameraRay, events: Events) -> PathSample {
+fn trace(
+    world: &World,
+    sample: &mut impl PrimarySample,
+    camera: &CameraRay,
+    events: Events,
+    record: &mut impl Record,
+) -> PathSample {
     let scene = world.scene;
     let mut path = Path::new(camera.ratio);
     let ray = Ray::new(camera.origin, camera.direction);
@@ -168,17 +186,22 @@ fn trace(world: &World, sample: &mut impl PrimarySample, camera: &CameraRay, eve
     let mut number = 0;
     loop {
         let arrival = flight.fly_to_vertex(world, sample, Blocks::Camera, &mut number, |passage, at, wo| {
-            if events.holds(depth) {
-                add_emission(world, &mut path, passage, at, wo);
+            if events.holds(depth)
+                && let Some((value, weight)) = add_emission(world, &mut path, passage, at, wo)
+            {
+                record.contribution((0, depth + 2), None, value * camera.importance, weight);
             }
         });
         let Some((vertex, u)) = arrival else {
-            if events.holds(depth) {
-                add_environment(world, &mut path, &flight);
+            if events.holds(depth)
+                && let Some((value, weight)) = add_environment(world, &mut path, &flight)
+            {
+                record.contribution((0, depth + 2), None, value * camera.importance, weight);
             }
             break;
         };
         alpha = 1.0;
+        record.vertex(End::Camera, vertex.point.p, vertex.is_on_surface());
         if depth == DIRECT {
             // What comes from here on is scattered once more.
             direct = Some(std::mem::replace(&mut path.radiance, SampledSpectrum::ZERO));
@@ -188,8 +211,11 @@ fn trace(world: &World, sample: &mut impl PrimarySample, camera: &CameraRay, eve
         }
         path.arrive(&flight, &vertex);
         let lights = sample.block(Block::light(number));
-        if events.holds(depth + 1) && vertex.is_connectable() {
-            add_direct_light(world, &mut path, &vertex, lights);
+        if events.holds(depth + 1)
+            && vertex.is_connectable()
+            && let Some((value, weight)) = add_direct_light(world, &mut path, &vertex, lights)
+        {
+            record.contribution((1, depth + 2), None, value * camera.importance, weight);
         }
         if depth >= ROULETTE_FROM && !path.survives_roulette(lights[3]) {
             break;
@@ -216,35 +242,38 @@ fn trace(world: &World, sample: &mut impl PrimarySample, camera: &CameraRay, eve
     PathSample { direct: direct * camera.importance, indirect: indirect * camera.importance, alpha }
 }
 
+/// A contribution as if there were no other strategy, and its weight.
+type Contribution = (SampledSpectrum, Real);
+
 #[inline]
-fn add_emission(world: &World, path: &mut Path, passage: &Passage, at: &SurfacePoint, wo: Vec3) {
+fn add_emission(
+    world: &World,
+    path: &mut Path,
+    passage: &Passage,
+    at: &SurfacePoint,
+    wo: Vec3,
+) -> Option<Contribution> {
     let lights = &world.scene.lights;
     let hit = emitter_hit(at);
-    if let Some(light) = lights.emitted(&hit, wo, world.lambda) {
-        path.add_found(passage, light, |last| lights.pdf_object(&hit, &last.at));
-    }
+    let light = lights.emitted(&hit, wo, world.lambda)?;
+    Some(path.add_found(passage, light, |last| lights.pdf_object(&hit, &last.at)))
 }
 
 #[inline]
-fn add_environment(world: &World, path: &mut Path, flight: &Flight) {
+fn add_environment(world: &World, path: &mut Path, flight: &Flight) -> Option<Contribution> {
     let (lights, towards) = (&world.scene.lights, flight.ray.d);
-    if let Some(light) = lights.environment(towards, world.lambda) {
-        path.add_found(&flight.passage, light, |last| lights.pdf_environment(&last.at, towards));
-    }
+    let light = lights.environment(towards, world.lambda)?;
+    Some(path.add_found(&flight.passage, light, |last| lights.pdf_environment(&last.at, towards)))
 }
 
 #[inline]
-fn add_direct_light(world: &World, path: &mut Path, vertex: &Vertex, u: [Real; 4]) {
-    let lights = &world.scene.lights;
-    let Some(light) = lights.sample(&vertex.receiver(), u, world.lambda) else {
-        return;
-    };
+fn add_direct_light(world: &World, path: &mut Path, vertex: &Vertex, u: [Real; 4]) -> Option<Contribution> {
+    let light = world.scene.lights.sample(&vertex.receiver(), u, world.lambda)?;
     let response = vertex.eval(light.wi, Mode::Radiance);
     let value = response.f_cos * light.radiance;
     if value.is_black() {
-        return;
+        return None;
     }
-    if let Some(passage) = way_to_light(world, vertex, &light) {
-        path.add_drawn(value, &passage, light.pdf, response.pdf);
-    }
+    let passage = way_to_light(world, vertex, &light)?;
+    Some(path.add_drawn(value, &passage, light.pdf, response.pdf))
 }

@@ -50,11 +50,12 @@ impl Tracer {
     ) -> Found {
         let [.., wavelength, _] = numbers.block(Block::FILM);
         let lambda = scene.wavelengths.sample(wavelength);
+        record.begin(position, &lambda);
         let [x, y, ..] = numbers.block(Block::LENS);
         let [d0, d1, ..] = numbers.block(Block::DIFFRACTION);
         let camera = scene.camera.sample(position, Vec2::new(x, y), Vec2::new(d0, d1), &lambda);
         let path = match self {
-            Self::Path(path) => path.trace(scene, numbers, &lambda, &camera, events),
+            Self::Path(path) => path.trace(scene, numbers, &lambda, &camera, events, record),
             Self::Bidirectional(b) => b.trace(scene, numbers, &lambda, &camera, events, record),
         };
         Found { path, sensor: Sensor::new(&lambda) }

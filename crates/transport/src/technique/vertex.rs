@@ -60,6 +60,11 @@ impl Vertex {
         }
     }
 
+    /// Whether it lies on a surface, and not in a medium.
+    pub fn is_on_surface(&self) -> bool {
+        matches!(self.model, Model::Surface(_))
+    }
+
     /// The shading normal on the side from which the path came; none in a medium.
     pub fn normal(&self) -> Option<Vec3> {
         match &self.model {

@@ -8,7 +8,7 @@ use crate::technique::media::World;
 use crate::technique::mis::{Prefix, Step, Weight};
 use crate::technique::vertex::Vertex;
 use crate::technique::visibility::{Point, way};
-use crate::technique::{DIRECT, Record, Splat};
+use crate::technique::{DIRECT, End, Record, Splat};
 use indigo_geom::Ray;
 use indigo_light::Emission;
 use indigo_math::{Real, Vec3};
@@ -100,6 +100,7 @@ impl LightPath {
                     receivers.map(|to| scene.lights.pdf_sample_of(&emission, &to) / emission.pdf.first);
             }
             beta = flight.arrived(beta, &vertex);
+            record.vertex(End::Light, vertex.point.p, vertex.is_on_surface());
             self.vertices.push(LightVertex { vertex, beta, prefix });
             let last = self.vertices.len() - 1;
             if vertex.is_connectable() {

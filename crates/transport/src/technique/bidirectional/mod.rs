@@ -19,7 +19,7 @@ use super::flight::{Blocks, Flight};
 use super::media::{World, WorldMemory};
 use super::mis::{Prefix, Step};
 use super::vertex::Vertex;
-use super::{DIRECT, Events, PathSample, Record, Splat};
+use super::{DIRECT, End, Events, PathSample, Record, Splat};
 use crate::sampler::{Block, PrimarySample};
 use indigo_camera::{CameraRay, FilmPosition};
 use indigo_geom::Ray;
@@ -142,6 +142,7 @@ fn trace_camera(
             break;
         };
         alpha = 1.0;
+        record.vertex(End::Camera, vertex.point.p, vertex.is_on_surface());
         if depth == events.most {
             break;
         }
