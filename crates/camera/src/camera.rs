@@ -30,19 +30,23 @@ pub struct CameraRay {
     pub offset: Vec2,
     /// Density of that offset for each wavelength, over the hero's.
     pub ratio: LanePdf,
-    /// The hero's, over the area of the film; infinite where there is no diffraction.
+    /// The mean of that density over all wavelengths, over the area of the film; infinite where there is no
+    /// diffraction. It is the same whichever wavelength is the hero.
     pub offset_density: Real,
+    /// Part of the film that a disc covers whose radius is the offset.
+    pub offset_disc: Real,
 }
 
 impl CameraRay {
-    fn new(ray: LensRay, offset: Offset) -> Self {
+    fn new(ray: LensRay, offset: Offset, disc: Real) -> Self {
         Self {
             origin: ray.origin,
             direction: ray.direction,
             importance: ray.importance,
             offset: offset.on_film,
             ratio: offset.ratio,
-            offset_density: offset.density,
+            offset_density: offset.density * offset.ratio.mean(),
+            offset_disc: disc,
         }
     }
 }
@@ -70,7 +74,7 @@ impl Camera {
     /// choose a point of the aperture, evenly over what is open. There is no diffraction.
     #[inline]
     pub fn ray(&self, film: Vec2, lens: Vec2) -> CameraRay {
-        CameraRay::new(self.lens.ray(film, self.aperture.sample(lens)), Offset::NONE)
+        CameraRay::new(self.lens.ray(film, self.aperture.sample(lens)), Offset::NONE, 0.0)
     }
 
     /// Whether [`sample`](Self::sample) sends rays elsewhere than [`ray`](Self::ray).
@@ -90,7 +94,8 @@ impl Camera {
     ) -> CameraRay {
         let Some(deflection) = &self.deflection else { return self.ray(film, lens) };
         let offset = deflection.sample(diffraction, lambda);
-        CameraRay::new(self.lens.ray(film + offset.on_film, self.aperture.sample(lens)), offset)
+        let disc = self.lens.disc(offset.on_film);
+        CameraRay::new(self.lens.ray(film + offset.on_film, self.aperture.sample(lens)), offset, disc)
     }
 
     /// The film position that sees along a direction from a point of the lens, without diffraction: see

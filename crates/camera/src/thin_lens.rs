@@ -153,6 +153,13 @@ impl ThinLens {
         defocus * defocus / (self.tangents.x * self.tangents.y)
     }
 
+    /// What part of the film a disc covers whose radius is a way on the film, in its widths and heights.
+    #[inline]
+    pub fn disc(&self, way: Vec2) -> Real {
+        let aspect = self.tangents.x / self.tangents.y;
+        (std::f64::consts::PI as Real) * (way.x * way.x * aspect + way.y * way.y / aspect)
+    }
+
     /// What radiance along the chief ray of slopes x and y counts on the film.
     #[inline]
     fn importance(&self, x: Real, y: Real) -> Real {

@@ -244,3 +244,34 @@ fn extreme_numbers_are_deflected_too() {
         }
     }
 }
+
+/// The density of an offset that weights go by does not depend on which of the wavelengths is the hero, whose own does.
+#[test]
+fn the_mean_density_of_an_offset_is_that_of_any_hero() {
+    let (camera, _) = camera(&Aperture::Circular);
+    let film = Vec2::new(0.5, 0.5);
+    let mut rng = Rng::new(3);
+    for _ in 0..20 {
+        let (u, lens) = (random(&mut rng), random(&mut rng));
+        let lambda = SampledWavelengths::sample(rng.uniform_f32() as Real);
+        let first = camera.sample(film, lens, u, &lambda);
+        for turn in 1..LANES {
+            let mut turned = lambda;
+            turned.lambda.rotate_left(turn);
+            turned.pdf.rotate_left(turn);
+            // The number that leads this hero just as far: the larger, the farther or the nearer.
+            let at = |x: Real| camera.sample(film, lens, Vec2::new(x, u.y), &turned);
+            let [near, far] = [0.01, 0.99].map(|x: Real| at(x).offset_disc);
+            let (mut lo, mut hi): (Real, Real) = (0.0, 1.0);
+            for _ in 0..40 {
+                let middle = 0.5 * (lo + hi);
+                let goes_on = (at(middle).offset_disc < first.offset_disc) == (near < far);
+                if goes_on { lo = middle } else { hi = middle }
+            }
+            let same = at(lo);
+            let quotient = same.offset_density / first.offset_density;
+            assert!((quotient - 1.0).abs() < 1e-3, "{u:?}, turn {turn}: {quotient}");
+            assert!((same.offset_disc / first.offset_disc - 1.0).abs() < 1e-3);
+        }
+    }
+}

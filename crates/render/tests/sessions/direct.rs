@@ -1,12 +1,12 @@
 //! Direct and indirect light, kept apart by every mode.
 
 use super::common::judge::assert_same;
-use super::common::text::{flat_camera, grey, scene_file, settings, sphere, uniform};
+use super::common::text::{camera, flat_camera, grey, scene_file, settings, sphere, uniform};
 use super::common::{film, scene};
 use indigo_film::XyzImage;
 use indigo_scene::Scene;
 use indigo_testkit::stats::Moments;
-use indigo_transport::driver::is_indirect;
+use indigo_transport::driver::{is_background, is_indirect};
 
 const SIDE: u32 = 24;
 
@@ -73,5 +73,32 @@ fn direct_and_indirect_light_are_told_apart_in_every_mode() {
         if !metropolis {
             assert_eq!(coverage.mean(), 1.0, "{modes}");
         }
+    }
+}
+
+/// The sun, out of focus, so that light paths find it as well as camera rays do: all of it is background.
+#[test]
+fn surroundings_that_light_paths_find_are_background() {
+    let sun = |modes: &str| {
+        let camera = camera(
+            [0.0; 3],
+            [0.0, 4.0, 3.0],
+            0.1,
+            "<aperture_radius>0.02</aperture_radius><focus_distance>1</focus_distance>",
+        );
+        let sky = "<skylight><sundir>0 4 3</sundir><turbidity>2</turbidity></skylight>".to_owned();
+        let ball = sphere([0.3, 3.0, 2.25], 0.05, "grey");
+        let modes =
+            format!("<bidirectional>true</bidirectional><save_layers_exr>true</save_layers_exr>{modes}");
+        scene(&scene_file(&[settings(SIDE, &modes), camera, grey("grey", 0.5), sky, ball]))
+    };
+    for modes in ["", "<metropolis>true</metropolis>"] {
+        let film = film(&sun(modes), 1, 16);
+        let background = luminance(&film.develop_layers(is_background));
+        // What the ball sends back of it, beside light from a sun in the picture.
+        let rest = luminance(&film.develop_layers(|layer| !is_background(layer)));
+        assert!(background > 1e3 * rest, "{modes}: {background} {rest}");
+        let splats = film.develop_layers(|layer| is_background(layer) && layer != "camera background");
+        assert!(luminance(&splats) > 0.1 * background, "{modes}: light paths find the sun");
     }
 }

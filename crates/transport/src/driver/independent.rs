@@ -165,14 +165,11 @@ impl Independent {
         }
         if self.is_bidirectional {
             // Counted one by one, so that what a unit that fails leaves behind is counted rightly.
-            delta.add_samples(layers.direct + 1, 1);
-            if layers.indirect != layers.direct {
-                delta.add_samples(layers.indirect + 1, 1);
-            }
+            layers.each().for_each(|layer| delta.add_samples(layer + 1, 1));
         }
         for splat in tracer.splats() {
             let xyz = found.sensor.xyz(&splat.radiance);
-            let layer = layers.of(splat.is_indirect);
+            let layer = layers.of(splat.part);
             delta.splat(layer + 1, self.region.in_pixels(splat.position), xyz, &self.filter);
         }
     }

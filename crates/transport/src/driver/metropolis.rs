@@ -232,7 +232,7 @@ impl Run<'_> {
         }
         for splat in self.tracer.splats().iter().filter(|splat| region.holds(splat.position)) {
             let xyz = found.sensor.xyz(&splat.radiance);
-            state.add(region.in_pixels(splat.position), xyz, layers.of(splat.is_indirect));
+            state.add(region.in_pixels(splat.position), xyz, layers.of(splat.part));
         }
         state.refused
     }

@@ -6,7 +6,7 @@ mod metropolis;
 mod region;
 mod seeds;
 
-use crate::technique::{DIRECT, Events, Record, Tracer};
+use crate::technique::{DIRECT, Events, Part, Record, Tracer};
 use independent::Independent;
 use indigo_film::{FilmDelta, LayerKind};
 use indigo_scene::Scene;
@@ -45,6 +45,7 @@ const METROPOLIS_INDIRECT: &str = "metropolis indirect";
 
 /// The same of light that comes straight from the surroundings, where nothing stands before them.
 const CAMERA_BACKGROUND: &str = "camera background";
+const LIGHT_BACKGROUND: &str = "light background";
 const METROPOLIS_BACKGROUND: &str = "metropolis background";
 
 /// Whether a layer of a film holds light that is scattered more than once alone.
@@ -54,7 +55,7 @@ pub fn is_indirect(layer: &str) -> bool {
 
 /// Whether a layer of a film holds light of the surroundings alone that nothing has scattered or hidden.
 pub fn is_background(layer: &str) -> bool {
-    [CAMERA_BACKGROUND, METROPOLIS_BACKGROUND].contains(&layer)
+    [CAMERA_BACKGROUND, LIGHT_BACKGROUND, METROPOLIS_BACKGROUND].contains(&layer)
 }
 
 /// The film's layers for the parts of light, some of which may be the same: for camera samples and mutations. Splats of
@@ -72,8 +73,12 @@ impl Layers {
         Self { direct: layer, indirect: layer, background: layer }
     }
 
-    fn of(self, is_indirect: bool) -> usize {
-        if is_indirect { self.indirect } else { self.direct }
+    fn of(self, part: Part) -> usize {
+        match part {
+            Part::Background => self.background,
+            Part::Direct => self.direct,
+            Part::Indirect => self.indirect,
+        }
     }
 
     /// Those that differ, each once.
@@ -134,7 +139,7 @@ impl Driver {
                 }
                 if is_apart {
                     own.background = layers.len();
-                    layers.push((LayerKind::PerPixel, CAMERA_BACKGROUND));
+                    camera_layers(&mut layers, [CAMERA_BACKGROUND, LIGHT_BACKGROUND]);
                 }
                 match transport.metropolis {
                     Some(settings) if most > DIRECT => {

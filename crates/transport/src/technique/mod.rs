@@ -67,8 +67,26 @@ pub struct Splat {
     pub position: Vec2,
     /// Radiance, W m^-3 sr^-1, as it counts on the film, over the density of film positions.
     pub radiance: SampledSpectrum,
-    /// Whether it was scattered more than once.
-    pub is_indirect: bool,
+    /// What part of the light it is.
+    pub part: Part,
+}
+
+/// The parts of light that a film may keep apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// Straight from the surroundings, where nothing stands before them.
+    Background,
+    /// From a lamp, or scattered once.
+    Direct,
+    /// Scattered more than once.
+    Indirect,
+}
+
+impl Part {
+    /// Of light that was scattered so many times, more than none.
+    pub fn scattered(events: u32) -> Self {
+        if events > DIRECT { Self::Indirect } else { Self::Direct }
+    }
 }
 
 /// The ends of a path.

@@ -8,7 +8,7 @@ use crate::technique::media::World;
 use crate::technique::mis::{Prefix, Step, Weight};
 use crate::technique::vertex::Vertex;
 use crate::technique::visibility::{Point, way};
-use crate::technique::{DIRECT, End, Record, Splat};
+use crate::technique::{End, Part, Record, Splat};
 use indigo_geom::Ray;
 use indigo_light::Emission;
 use indigo_math::{Real, Vec3};
@@ -69,6 +69,9 @@ impl LightPath {
         let [_, _, v0, v1] = numbers.block(Block::LENS);
         let Some(source) = scene.lights.sample_source(u) else { return };
         self.splats.extend(join_source(sample, &source, self.film_density, record));
+        if sample.events.most == 0 {
+            return;
+        }
         let Some(emission) = scene.lights.emit(&source, [v0, v1], world.lambda) else { return };
         let mut beta = emission.throughput();
         let initial = beta.max_lane();
@@ -158,7 +161,11 @@ impl LightPath {
         let arrived = light.beta.times(camera.ratio) * passage.transmittance;
         let value = arrived * scattered.f_cos * (film.importance * pdf / distance2);
         record.contribution((events + 1, 1), Some(position), value / weight.mean_ratio, weight.weight);
-        self.splats.push(Splat { position, radiance: value * weight.factor(), is_indirect: events > DIRECT });
+        self.splats.push(Splat {
+            position,
+            radiance: value * weight.factor(),
+            part: Part::scattered(events),
+        });
     }
 }
 

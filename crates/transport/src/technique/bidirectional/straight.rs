@@ -9,16 +9,22 @@
 //! variance of the sum is least where (0, 2) has the weight 1 / (1 + q (1 − h)): that of the balance heuristic with the
 //! density of (1, 1) times 1 − h. So where all rays of a pixel see the lamp it has no noise, and light paths add none.
 //!
+//! That is for samples of their own in each pixel: a Markov chain has none, and there the weights are but sound. The power
+//! heuristic, which all strategies share, keeps within 13 % of the least variance.
+//!
 //! Nobody knows h, but whatever stands for it, weights are right that both strategies make of the same numbers (Veach
-//! 1997, section 9.2). Sharp, the lamp would cover the part S of the film, the density of the camera's direction over
+//! 1997, section 9.2), the same whichever of the path's wavelengths is its hero: the densities of the two strategies have
+//! not the same ratios between wavelengths where a medium scatters some more, so weights that depended on the hero would
+//! not sum to one in the mean. Sharp, the lamp would cover the part S of the film, the density of the camera's direction over
 //! that of drawing the light had its lamp been the only one. Light of a point spreads over the film with a density
 //! of D: 1 / blur by the lens, that of the offset by diffraction, and no more than 1 / (area of a pixel). Then
-//! h = min(1, S D), as if the lamp were even and nothing stood before it.
+//! h = min(1, S D), as if the lamp were even and nothing stood before it. An offset that stays within the lamp's image
+//! leads from a pixel that sees the lamp to one that does, however rare it is: there diffraction does not count.
 
 use super::Sample;
 use crate::technique::mis::Weight;
 use crate::technique::visibility::{Point, way_from_lens};
-use crate::technique::{Record, Splat};
+use crate::technique::{Part, Record, Splat};
 use indigo_light::{Source, SourceView};
 use indigo_math::{Real, Vec3};
 
@@ -45,7 +51,8 @@ impl Seen {
         let (lens, film) = (&world.scene.camera, &world.scene.film.size);
         let sharp = lens.pdf_direction(self.wi) * self.chance / self.pdf;
         let pixels = film.internal_width() as Real * film.internal_height() as Real;
-        let spread = lens.blur(self.wi, self.distance).max(1.0 / pixels).recip().min(camera.offset_density);
+        let offset_density = if camera.offset_disc <= sharp { Real::INFINITY } else { camera.offset_density };
+        let spread = lens.blur(self.wi, self.distance).max(1.0 / pixels).recip().min(offset_density);
         // Without density there is nothing to cover, and nothing to count.
         if sharp * spread < 1.0 { self.pdf * (1.0 - sharp * spread) } else { 0.0 }
     }
@@ -80,5 +87,6 @@ pub(super) fn join_source<R: Record>(
     let arrived = light.times(camera.ratio) * passage.transmittance;
     let value = arrived * (film.importance * pdf / view.pdf);
     record.contribution((1, 1), Some(film.position), value / weight.mean_ratio, weight.weight);
-    Some(Splat { position: film.position, radiance: value * weight.factor(), is_indirect: false })
+    let part = if view.point.is_some() { Part::Direct } else { Part::Background };
+    Some(Splat { position: film.position, radiance: value * weight.factor(), part })
 }
