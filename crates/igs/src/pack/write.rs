@@ -109,9 +109,14 @@ fn plain_name(path: &str) -> String {
     let room = LONGEST_NAME.saturating_sub(ending.len() + 1);
     // All characters are of one byte by now.
     let stem = stem.get(..room.min(stem.len())).unwrap_or_default();
-    match ending.get(..LONGEST_NAME.min(ending.len())) {
+    let name = match ending.get(..LONGEST_NAME.min(ending.len())) {
         Some(ending) if !ending.is_empty() => format!("{stem}.{ending}"),
         _ => stem.to_owned(),
+    };
+    // Not every system allows a point at the end.
+    match name.trim_end_matches('.') {
+        "" => "file".to_owned(),
+        name => name.to_owned(),
     }
 }
 
@@ -124,7 +129,7 @@ mod tests {
         assert_eq!(plain_name("maps\\Holz böden/Eiche & Öl.JPG"), "Eiche____l.JPG");
         assert_eq!(plain_name("PACKED_0_PACKED_12_x.png"), "x.png");
         assert_eq!(plain_name("PACKED_x_y"), "PACKED_x_y");
-        assert_eq!(plain_name("a/.."), "..");
+        assert_eq!((plain_name("a/.."), plain_name("a...")), ("file".to_owned(), "a".to_owned()));
         let long = plain_name(&format!("{}.exr", "a".repeat(500)));
         assert!(long.len() <= LONGEST_NAME && long.strip_suffix(".exr").is_some(), "{long}");
     }
