@@ -184,11 +184,16 @@ impl Environment {
     /// direction through a point.
     #[inline]
     pub fn pdf_emission(&self, towards: Vec3, through: Vec3) -> EmissionPdf {
-        let second = match &self.portals {
+        EmissionPdf { first: self.pdf_source(towards), second: self.pdf_entry(towards, through) }
+    }
+
+    /// Density (1/m²), across a direction, with which light from there enters along the line through a point.
+    #[inline]
+    pub fn pdf_entry(&self, towards: Vec3, through: Vec3) -> Real {
+        match &self.portals {
             None => INV_PI / (self.radius * self.radius),
             Some(portals) => portals.pdf_line(through, towards),
-        };
-        EmissionPdf { first: self.pdf_source(towards), second }
+        }
     }
 
     /// Density (1/sr) of [`sample_source`](Self::sample_source).

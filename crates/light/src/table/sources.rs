@@ -45,7 +45,7 @@ impl LightTable {
     pub fn emit(&self, source: &Source, v: [Real; 2], lambda: &SampledWavelengths) -> Option<Emission> {
         match source.place {
             Place::Lamp(number, point) => self.leave(number, point, source.pdf, v, lambda),
-            Place::Environment(towards, rest) => self.enter(towards, rest, v, lambda),
+            Place::Environment(towards, rest) => self.enter(towards, source.pdf, rest, v, lambda),
         }
     }
 
@@ -78,15 +78,16 @@ impl LightTable {
     fn enter(
         &self,
         towards: Vec3,
+        first: Real,
         choice: f64,
         v: [Real; 2],
         lambda: &SampledWavelengths,
     ) -> Option<Emission> {
         let environment = self.environment.as_ref()?;
         let origin = environment.sample_entry(towards, choice, v)?;
-        let pdf = self.pdf_emission_environment(towards, origin);
+        let pdf = EmissionPdf { first, second: environment.pdf_entry(towards, origin) };
         // A scene without extent gets no light: the density over its area has no value.
-        (pdf.first > 0.0 && pdf.second > 0.0 && pdf.second.is_finite()).then(|| Emission {
+        (pdf.second > 0.0 && pdf.second.is_finite()).then(|| Emission {
             origin,
             point: None,
             direction: -towards,
