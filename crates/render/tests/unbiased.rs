@@ -5,7 +5,8 @@
 
 mod common;
 
-use common::judge::{NITS_PER_UNIFORM, replay};
+use common::again::replay;
+use common::judge::NITS_PER_UNIFORM;
 use common::shapes::{Mesh, mesh_light, model};
 use common::text::{ONE_PIXEL, background, flat_camera, grey, scene_file, settings, uniform};
 use common::{film, scene};

@@ -3,7 +3,8 @@
 #[path = "../../render/tests/common/mod.rs"]
 mod common;
 
-use common::judge::{assert_same, replay};
+use common::again::replay;
+use common::judge::assert_same;
 use common::scene;
 use common::shapes::{Mesh, mesh_light, model};
 use common::text::{flat_camera, grey, scene_file, settings, uniform};

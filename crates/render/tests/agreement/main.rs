@@ -13,8 +13,8 @@ mod modes;
 mod pictures;
 mod scenes;
 
+use common::again::replay;
 use common::film;
-use common::judge::replay;
 use indigo_scene::Scene;
 use indigo_testkit::sidak;
 use indigo_testkit::zgrid::{BlockGrid, ZGrid};
@@ -91,7 +91,7 @@ fn agree(name: &str, mut scene: Scene) {
                 let (again, base) = (replay(), MODES[0].name);
                 let _ = writeln!(
                     faults,
-                    "{name}, {} against {base}, {channel}: {result}\nagain: {again} -- --include-ignored; seeds from {} on",
+                    "{name}, {} against {base}, {channel}: {result}; seeds from {} on\nagain: {again}",
                     mode.name, mode.seed
                 );
             }

@@ -1,5 +1,6 @@
 //! Verdicts on measured means.
 
+use super::again::replay;
 use indigo_testkit::sidak;
 use indigo_testkit::stats::Moments;
 use indigo_testkit::ztest::welch;
@@ -49,14 +50,6 @@ pub fn assert_near(what: &str, measured: &Moments, expected: f64, tolerance: f64
 #[track_caller]
 pub fn assert_agrees(what: &str, measured: &Moments, expected: f64) {
     assert_same(what, measured, &Moments::exact(expected));
-}
-
-/// The command that runs the test at hand again, with the same seeds: they are fixed.
-pub fn replay() -> String {
-    // The harness names a test's thread by the test.
-    let thread = std::thread::current();
-    let name = thread.name().unwrap_or_default().to_owned();
-    format!("cargo test -p {} --test {} {name}", env!("CARGO_PKG_NAME"), env!("CARGO_CRATE_NAME"))
 }
 
 /// Says that two sets of measured means have one expectation.

@@ -1,6 +1,7 @@
 //! Scenes from text in memory, rendered in small independent batches, and judged.
 #![allow(dead_code, reason = "every test program uses its own part")]
 
+pub mod again;
 pub mod judge;
 pub mod noise;
 pub mod shapes;
@@ -39,11 +40,14 @@ pub fn scene(text: &str) -> Scene {
 /// The scene of a text that names other files.
 pub fn scene_with<const N: usize>(text: &str, files: [(&str, Vec<u8>); N]) -> Scene {
     let mut files: HashMap<String, Vec<u8>> = files.into_iter().map(|(n, b)| (n.to_owned(), b)).collect();
-    files.insert("test.igs".to_owned(), text.as_bytes().to_vec());
+    files.insert(again::SCENE.to_owned(), text.as_bytes().to_vec());
     let files = Files(files);
-    let loaded = load("test.igs", &LoadOptions::new(&files));
+    let loaded = load(again::SCENE, &LoadOptions::new(&files));
     let complaints = || loaded.sink.diagnostics().iter().map(|d| to_text(d, &loaded.sources, Style::Plain));
-    loaded.scene.unwrap_or_else(|| panic!("the scene has errors:\n{}", complaints().collect::<String>()))
+    let scene =
+        loaded.scene.unwrap_or_else(|| panic!("the scene has errors:\n{}", complaints().collect::<String>()));
+    again::remember_scene(&scene, files.0.iter());
+    scene
 }
 
 /// A film with `passes` samples for each output pixel.
@@ -52,6 +56,7 @@ pub fn film(scene: &Scene, seed: u64, passes: u64) -> FilmState {
     let mut film = FilmState::new(scene.film.size, driver.layers());
     let mut delta = film.delta();
     let mut tracer = driver.tracer();
+    again::remember_render(scene, seed, driver.units(passes));
     for unit in 0..driver.units(passes) {
         driver.render_unit(scene, unit, &mut tracer, &mut delta);
         // Often enough that single precision loses nothing that these tests could see.
