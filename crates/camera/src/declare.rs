@@ -8,7 +8,14 @@ pub static CAMERA: Block = Block::new(
     "The camera: a thin lens before a flat sensor. The horizontal angle of view is \
      2·atan(sensor_width / (2·lens_sensor_dist)), whatever the focus. A scene must have a camera.",
     &[
-        Field::new("pos", Kind::Vec3, Presence::Required, "The centre of the lens.").unit("m"),
+        Field::new(
+            "pos",
+            Kind::Vec3,
+            Presence::Optional,
+            "The centre of the lens. Needed unless there is a `keyframe`.",
+        )
+        .unit("m"),
+        KEYFRAME,
         Field::new(
             "up",
             Kind::Vec3,
@@ -110,15 +117,14 @@ pub static CAMERA: Block = Block::new(
         ),
     ],
 )
-.with_needs(&[Group::any(&["focus_distance", "autofocus"])])
+.with_needs(&[Group::any(&["focus_distance", "autofocus"]), Group::any(&["pos", "keyframe"])])
 .with_later(&[
     Later::new("name", "3.0"),
     Later::new("uid", "3.0"),
-    Later::new("keyframe", "3.0"),
-    Later::new("lens_shift_up_distance", "2.0"),
-    Later::new("lens_shift_right_distance", "2.0"),
-    Later::new("camera_type", "2.2"),
-    Later::new("white_point", "3.0"),
+    Later::new("lens_shift_up_distance", "2.0").instead("is ignored: the lens stands before the middle of the sensor").unless("0"),
+    Later::new("lens_shift_right_distance", "2.0").instead("is ignored: the lens stands before the middle of the sensor").unless("0"),
+    Later::new("camera_type", "2.2").instead("is ignored: the camera is a thin lens").unless("thin-lens-perspective"),
+    Later::new("white_point", "3.0").instead("is ignored: white_balance counts"),
 ])
 .with_ignored(&["polarising_filter", "polarising_angle", "glare_weight", "glare_radius", "glare_num_blades"])
 .with_example(
@@ -136,6 +142,60 @@ pub static CAMERA: Block = Block::new(
     <autofocus/>
 </camera>",
 );
+
+/// A place in time.
+pub const KEYFRAME: Field = Field::new(
+    "keyframe",
+    Kind::Block(&KEYFRAME_BLOCK),
+    Presence::Repeated,
+    "Where it stands at a time, in place of `pos`. What moves is rendered standing still, where it is when the shutter \
+     opens, with a warning.",
+);
+
+/// The declaration of `keyframe`.
+pub static KEYFRAME_BLOCK: Block = Block::new(
+    "keyframe",
+    "Where a camera or a model stands at a time, as later versions write it. Between two of them it moves evenly; before \
+     the first and after the last it stands still.",
+    &[
+        Field::new(
+            "time",
+            Kind::Real,
+            Presence::Default("0"),
+            "The time: the shutter opens at 0 and closes at 1.",
+        ),
+        Field::new("pos", Kind::Vec3, Presence::Required, "Where its origin stands.").unit("m"),
+        Field::new(
+            "rotation_quaternion",
+            Kind::Block(&ROTATION_QUATERNION),
+            Presence::Optional,
+            "How it is turned, after the rotation that it has besides; not at all where it is missing.",
+        ),
+    ],
+)
+.with_example(
+    "<keyframe>
+    <time>0</time>
+    <pos>0 0 1</pos>
+    <rotation_quaternion><axis>0 0 1</axis><angle>0.5</angle></rotation_quaternion>
+</keyframe>",
+);
+
+/// The declaration of `rotation_quaternion`.
+pub static ROTATION_QUATERNION: Block = Block::new(
+    "rotation_quaternion",
+    "A turn by an angle, clockwise for someone towards whom the axis points.",
+    &[
+        Field::new(
+            "axis",
+            Kind::Vec3,
+            Presence::Required,
+            "The axis, of any length; at 0 nothing is turned.",
+        ),
+        Field::new("angle", Kind::Real, Presence::Required, "The angle.").unit("rad"),
+    ],
+)
+.with_example("<rotation_quaternion><axis>0 0 1</axis><angle>1.5708</angle></rotation_quaternion>");
 
 /// The declaration of `bloom`.
 pub static BLOOM: Block = Block::new(

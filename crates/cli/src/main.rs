@@ -14,6 +14,7 @@ use flags::Arguments;
 use indigo_decl::Resolver;
 use indigo_diag::{Diagnostic, Severity, Sink, SourceMap, summary_to_json, to_json};
 use indigo_igs::Limits;
+use indigo_igs::pack::{MaterialPacks, PackLimits};
 use indigo_render::disk::{DiskResolver, DiskTreeStore};
 use indigo_render::output::write_strategies;
 use indigo_render::pool::with_jobs;
@@ -215,11 +216,11 @@ fn with_resolver<T>(
     let disk = DiskResolver::new(paths::resource_directories()).for_scene(scene);
     let resources = DiskResolver::only(paths::resource_directories());
     let inifile = paths::inifile();
-    let loaded = if packs::is_pack(scene) {
-        load(&packs::open(scene, &disk, &resources)?, inifile.as_deref())
-    } else {
-        load(&disk, inifile.as_deref())
+    let load = |resolver: &dyn Resolver| {
+        load(&MaterialPacks::new(resolver, PackLimits::default()), inifile.as_deref())
     };
+    let loaded =
+        if packs::is_pack(scene) { load(&packs::open(scene, &disk, &resources)?) } else { load(&disk) };
     Ok((loaded, disk.files()))
 }
 

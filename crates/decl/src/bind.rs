@@ -4,8 +4,9 @@ use crate::codes;
 use crate::element::Element;
 use crate::field::{Alternatives, Block, Field, Group, Kind, Presence};
 use crate::node::{Content, Node, Slot};
+use crate::parameter;
 use crate::report;
-use crate::value;
+use crate::value::{self, Value};
 use indigo_diag::{Diagnostic, Severity, Sink, nearest};
 use std::cell::Cell;
 
@@ -14,6 +15,14 @@ const CONSTANT: &str = "constant";
 
 /// Name of the wrapper that some exporters put round a path.
 const PATH: &str = "path";
+
+/// What a reference by uid has before the uid, so that it is told from a name.
+pub const UID: &str = "uid ";
+
+/// Whether an element refers to something by the uid of later versions of the format.
+fn is_uid(name: &str) -> bool {
+    name.ends_with("_uid")
+}
 
 /// Binds an element to its declaration.
 ///
@@ -24,7 +33,7 @@ pub fn bind(element: Element, block: &'static Block, sink: &mut Sink) -> Node {
     report::stray_text(&element, sink);
     let name = &element.name;
     let mut implied: Vec<Element> = vec![];
-    for child in element.children {
+    for child in parameter::settle(element.children, block, sink) {
         bind_child(child, name, &mut node, &mut implied, sink);
     }
     bind_implied(implied, &mut node, sink);
@@ -39,6 +48,10 @@ fn bind_child(child: Element, parent: &str, node: &mut Node, implied: &mut Vec<E
         let field = &block.fields[i];
         report::deprecated(&child, field, sink);
         if field.presence != Presence::Repeated && !node.slots[i].is_empty() {
+            // Later exporters write name and uid of the same thing: the one that comes first counts.
+            if matches!(field.kind, Kind::Reference(_)) && is_uid(&child.name) {
+                return;
+            }
             sink.push(Diagnostic::warning(
                 codes::DUPLICATE_ELEMENT,
                 child.span,
@@ -64,7 +77,7 @@ fn bind_child(child: Element, parent: &str, node: &mut Node, implied: &mut Vec<E
             node.alternative_reported = true;
             return;
         }
-        if alternatives.implied.is_some_and(|b| b.fields.iter().any(|f| f.is_called(&child.name))) {
+        if alternatives.implied.is_some_and(|b| b.knows(&child.name)) {
             implied.push(child);
             return;
         }
@@ -135,7 +148,13 @@ fn bind_field(child: Element, field: &'static Field, sink: &mut Sink) -> Option<
             for inner in &child.children {
                 report::unexpected_child(inner, &child.name, sink);
             }
-            let (value, error) = value::parse(field, &child.text.value);
+            let (mut value, error) = value::parse(field, &child.text.value);
+            if let (Kind::Reference(_), Value::Text(uid)) = (field.kind, &mut value)
+                && is_uid(&child.name)
+                && !uid.is_empty()
+            {
+                uid.insert_str(0, UID);
+            }
             let span = if child.text.value.is_empty() { child.span } else { child.text.span };
             if let Some(error) = error {
                 report::value(field, &child, span, error, sink);
@@ -268,6 +287,7 @@ pub(crate) fn did_you_mean(name: &str, block: &Block) -> Option<String> {
     let alternatives = block.alternatives.iter().flat_map(|a| a.blocks.iter().map(|b| b.name));
     let implied =
         block.alternatives.iter().filter_map(|a| a.implied).flat_map(|b| b.fields.iter().map(|f| f.name));
-    let known = block.fields.iter().map(|f| f.name).chain(alternatives).chain(implied);
+    let parameters = block.parameters.iter().map(|p| p.name);
+    let known = block.fields.iter().map(|f| f.name).chain(parameters).chain(alternatives).chain(implied);
     nearest(name, known).map(|n| format!("did you mean <{n}>?"))
 }

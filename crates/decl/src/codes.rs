@@ -62,8 +62,6 @@ codes! {
     WRONG_ALTERNATIVE = "E0204", "<tonemapping><linear><scale>1</scale></linear><camera/></tonemapping>";
     /// A known element that this version cannot render yet.
     NOT_RENDERED = "E0205", "(an element of the reference that has no effect in this version)";
-    /// A choice of a later version of the format, for which nothing can stand in.
-    LATER_ALTERNATIVE = "E0206", "<material><name>a</name><coating/></material>";
     /// Elements that are sound one by one, but not together.
     CONTRADICTION = "E0207", "(a blend of two specular materials)";
 }

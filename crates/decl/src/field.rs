@@ -1,5 +1,7 @@
 //! The tables that declare elements.
 
+use crate::parameter::Parameter;
+
 /// An element with children, declared.
 #[derive(Debug)]
 pub struct Block {
@@ -15,10 +17,14 @@ pub struct Block {
     pub alternatives: Option<Alternatives>,
     /// Groups of fields of which at least one must be given.
     pub needs: &'static [Group],
+    /// Parameters that later versions of the format write under one name, be they constants or image maps.
+    pub parameters: &'static [Parameter],
     /// Children of later versions of the format: warned of by name and ignored.
     pub later: &'static [Later],
     /// Children of old exporters without meaning any more: warned of and ignored.
     pub ignored: &'static [&'static str],
+    /// Children of an element that is not rendered as it is meant: its own warning tells of their loss.
+    pub passed_over: &'static [&'static str],
     /// A complete example of the element as it stands in a file; parsed and checked by a test. May be empty.
     pub example: &'static str,
 }
@@ -33,8 +39,10 @@ impl Block {
             fields,
             alternatives: None,
             needs: &[],
+            parameters: &[],
             later: &[],
             ignored: &[],
+            passed_over: &[],
             example: "",
         }
     }
@@ -49,6 +57,12 @@ impl Block {
     #[must_use]
     pub const fn with_needs(self, needs: &'static [Group]) -> Self {
         Self { needs, ..self }
+    }
+
+    /// The same block with parameters as later versions write them.
+    #[must_use]
+    pub const fn with_parameters(self, parameters: &'static [Parameter]) -> Self {
+        Self { parameters, ..self }
     }
 
     /// The same block with elements of later versions.
@@ -75,9 +89,25 @@ impl Block {
         Self { ignored, ..self }
     }
 
+    /// The same block with children that are passed over.
+    #[must_use]
+    pub const fn with_passed_over(self, passed_over: &'static [&'static str]) -> Self {
+        Self { passed_over, ..self }
+    }
+
     /// Whether an element of this name is meant.
     pub fn is_called(&self, name: &str) -> bool {
         self.name == name || self.aliases.contains(&name)
+    }
+
+    /// Whether it has a field of this name.
+    pub fn declares(&self, field: &str) -> bool {
+        self.fields.iter().any(|f| f.name == field)
+    }
+
+    /// Whether a child of this name has a meaning, by itself or as a later version writes it.
+    pub fn knows(&self, name: &str) -> bool {
+        self.fields.iter().any(|f| f.is_called(name)) || self.parameters.iter().any(|p| p.name == name)
     }
 }
 
@@ -92,14 +122,16 @@ pub struct Alternatives {
     pub optional: bool,
     /// The one whose fields may also stand directly in the parent, if any (an old form).
     pub implied: Option<&'static Block>,
-    /// Choices of later versions of the format: an error by name, since nothing can stand in for them.
+    /// Choices of later versions of the format: warned of by name, since something stands in for them.
     pub later: &'static [Later],
+    /// What stands in for those, in words; lowering finds no choice then.
+    pub stand_in: &'static str,
 }
 
 impl Alternatives {
     /// Exactly one of some blocks, to be completed with struct update syntax.
     pub const fn new(what: &'static str, blocks: &'static [&'static Block]) -> Self {
-        Self { what, blocks, optional: false, implied: None, later: &[] }
+        Self { what, blocks, optional: false, implied: None, later: &[], stand_in: "" }
     }
 }
 
@@ -131,12 +163,35 @@ pub struct Later {
     pub name: &'static str,
     /// The version that brought it.
     pub since: &'static str,
+    /// What is done in its place, after "and": "is ignored".
+    pub instead: &'static str,
+    /// The text with which it does nothing, and so is passed over without a word; empty for none.
+    pub neutral: &'static str,
 }
 
 impl Later {
     /// An element that a version of the format brought.
     pub const fn new(name: &'static str, since: &'static str) -> Self {
-        Self { name, since }
+        Self { name, since, instead: "is ignored", neutral: "" }
+    }
+
+    /// The same element with what is done in its place.
+    #[must_use]
+    pub const fn instead(self, instead: &'static str) -> Self {
+        Self { instead, ..self }
+    }
+
+    /// The same element with the text that makes it do nothing.
+    #[must_use]
+    pub const fn unless(self, neutral: &'static str) -> Self {
+        Self { neutral, ..self }
+    }
+
+    /// Whether it does nothing with a text: numbers are compared by value.
+    pub fn is_neutral(&self, text: &str) -> bool {
+        let number = |text: &str| text.trim().parse::<f64>().ok();
+        let same_number = number(text).is_some_and(|v| number(self.neutral) == Some(v));
+        !self.neutral.is_empty() && (same_number || text.trim().eq_ignore_ascii_case(self.neutral))
     }
 }
 

@@ -18,15 +18,17 @@ pub mod element;
 pub mod field;
 pub mod mesh;
 pub mod node;
+pub mod parameter;
 pub mod reference;
 mod report;
 pub mod resolver;
 pub mod value;
 
-pub use bind::{bind, report_unread};
+pub use bind::{UID, bind, report_unread};
 pub use element::{Attribute, Element};
 pub use field::{Alternatives, Block, Field, Group, Kind, Later, Presence, Range};
 pub use mesh::{EmbeddedMesh, MeshData};
 pub use node::{Node, Slot};
+pub use parameter::{Parameter, StandIn};
 pub use resolver::{ResolveError, Resolved, Resolver};
 pub use value::Value;

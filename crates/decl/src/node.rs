@@ -291,6 +291,13 @@ impl Node {
         }
     }
 
+    /// Marks several fields as used, though their values have no effect here.
+    pub fn disregard_fields(&self, fields: &[&str]) {
+        for field in fields {
+            self.disregard_field(field);
+        }
+    }
+
     /// Whether the kind of a field is a block, for listings.
     pub fn is_block(&self, field: &str) -> bool {
         matches!(self.block.fields[self.index(field)].kind, Kind::Block(_) | Kind::OneOf(_))

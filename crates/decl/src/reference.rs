@@ -1,7 +1,8 @@
 //! The scene-format reference, written from the declarations.
 
 use crate::codes::Code;
-use crate::field::{Alternatives, Block, Field, Kind, Presence, Range};
+use crate::field::{Alternatives, Block, Field, Kind, Later, Presence, Range};
+use crate::parameter::StandIn;
 use std::collections::{BTreeMap, VecDeque};
 use std::fmt::Write as _;
 
@@ -105,18 +106,53 @@ fn describe(out: &mut String, block: &Block, heading: &str, headings: &Headings)
         let count = if group.exclusive { "Exactly" } else { "At least" };
         let _ = writeln!(out, "{count} one of {} must be given.\n", code_list(group.fields));
     }
+    describe_parameters(out, block);
     let alternatives = block.alternatives.iter().flat_map(|a| a.later);
-    let later: Vec<String> =
-        block.later.iter().chain(alternatives).map(|l| format!("`{}` ({})", l.name, l.since)).collect();
+    let later: Vec<String> = block.later.iter().chain(alternatives).map(later_in_words).collect();
     if !later.is_empty() {
-        let _ = writeln!(out, "Of later format versions, and not read: {}.\n", later.join(", "));
+        let _ = writeln!(out, "Of later format versions, and not rendered: {}.\n", later.join(", "));
     }
     if !block.ignored.is_empty() {
         let _ = writeln!(out, "Of old exporters, and ignored: {}.\n", code_list(block.ignored));
     }
+    if !block.passed_over.is_empty() {
+        let _ = writeln!(out, "Read, and without effect: {}.\n", code_list(block.passed_over));
+    }
     if !block.example.is_empty() {
         let _ = writeln!(out, "```xml\n{}\n```\n", block.example.trim());
     }
+}
+
+fn later_in_words(later: &Later) -> String {
+    let Later { name, since, neutral, .. } = later;
+    let unless = if neutral.is_empty() { String::new() } else { format!(", unless it is {neutral}") };
+    format!("`{name}` ({since}{unless})")
+}
+
+fn describe_parameters(out: &mut String, block: &Block) {
+    if block.parameters.is_empty() {
+        return;
+    }
+    out.push_str(
+        "As later format versions write it, with a `constant`, a `texture` or a `shader` inside:\n\n",
+    );
+    out.push_str("| element | since | a constant is | a texture is | in place of what is not rendered |\n|---|---|---|---|---|\n");
+    let field = |name: &str| if name.is_empty() { "-".to_owned() } else { format!("`{name}`") };
+    for p in block.parameters {
+        let instead = match p.stand_in {
+            StandIn::Nothing => "nothing",
+            StandIn::Text(value) | StandIn::Uniform(value) => value,
+        };
+        let _ = writeln!(
+            out,
+            "| `{}` | {} | {} | {} | {instead} |",
+            p.name,
+            p.since,
+            field(p.constant),
+            field(p.texture)
+        );
+    }
+    out.push('\n');
 }
 
 fn describe_fields(out: &mut String, block: &Block, headings: &Headings) {

@@ -95,12 +95,18 @@ pub(crate) fn unexpected_child(inner: &Element, parent: &str, sink: &mut Sink) {
 
 pub(crate) fn unknown(child: &Element, parent: &str, block: &Block, sink: &mut Sink) {
     let name = &child.name;
+    if block.passed_over.contains(&&**name) {
+        return;
+    }
     if let Some(later) = block.later.iter().find(|l| l.name == &**name) {
-        sink.push(Diagnostic::warning(
-            codes::LATER_ELEMENT,
-            child.span,
-            format!("<{name}> in <{parent}> is of a later format version ({}) and is ignored", later.since),
-        ));
+        if !later.is_neutral(&child.text.value) {
+            let Later { since, instead, .. } = later;
+            sink.push_or_count(Diagnostic::warning(
+                codes::LATER_ELEMENT,
+                child.span,
+                format!("<{name}> in <{parent}> is of a later format version ({since}) and {instead}"),
+            ));
+        }
         return;
     }
     if block.ignored.contains(&&**name) {
@@ -121,14 +127,10 @@ pub(crate) fn unknown(child: &Element, parent: &str, block: &Block, sink: &mut S
 }
 
 pub(crate) fn later_alternative(child: &Element, later: &Later, a: &Alternatives, sink: &mut Sink) {
-    sink.push(
-        Diagnostic::error(
-            codes::LATER_ALTERNATIVE,
-            child.span,
-            format!("<{}> is of a later format version ({})", child.name, later.since),
-        )
-        .expected(format!("expected one of {}", names(a))),
-    );
+    let (name, Later { since, .. }, stand_in) = (&child.name, later, a.stand_in);
+    let message =
+        format!("<{name}> is of a later format version ({since}) and not rendered: {stand_in} stands in");
+    sink.push_or_count(Diagnostic::warning(codes::LATER_ELEMENT, child.span, message));
 }
 
 pub(crate) fn wrong_alternative(inner: &Element, alternatives: &Alternatives, sink: &mut Sink) {

@@ -47,14 +47,24 @@ pub fn to_text(diagnostic: &Diagnostic, sources: &SourceMap, style: Style) -> St
     } else if let Some(label) = &diagnostic.label {
         let _ = writeln!(out, "  = {}", shortened(label));
     }
-    for note in &diagnostic.notes {
-        let _ = writeln!(out, "  = note: {}", shortened(note));
+    for note in notes(diagnostic) {
+        let _ = writeln!(out, "  = note: {}", shortened(&note));
     }
     if let Some(hint) = &diagnostic.hint {
         let _ = writeln!(out, "  = hint: {}", shortened(hint));
     }
     include_chain(&mut out, diagnostic, sources);
     out
+}
+
+/// Its notes, and how often it was found again.
+fn notes(diagnostic: &Diagnostic) -> impl Iterator<Item = Cow<'_, str>> {
+    let again = match diagnostic.repeats {
+        0 => None,
+        1 => Some(Cow::from("the same was found once more")),
+        n => Some(Cow::from(format!("the same was found {n} more times"))),
+    };
+    diagnostic.notes.iter().map(|note| Cow::from(note.as_str())).chain(again)
 }
 
 fn excerpt(
@@ -136,7 +146,7 @@ pub fn to_json(diagnostic: &Diagnostic, sources: &SourceMap) -> String {
             let _ = write!(out, ",\"{key}\":{}", quoted(value));
         }
     }
-    let notes: Vec<String> = diagnostic.notes.iter().map(|n| quoted(n)).collect();
+    let notes: Vec<String> = notes(diagnostic).map(|n| quoted(&n)).collect();
     let _ = write!(out, ",\"notes\":[{}]}}", notes.join(","));
     out
 }

@@ -1,6 +1,7 @@
 //! Diagnostics and where they gather.
 
 use crate::Span;
+use std::collections::HashMap;
 
 /// How grave a diagnostic is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -30,6 +31,8 @@ pub struct Diagnostic {
     pub notes: Vec<String>,
     /// How to mend it.
     pub hint: Option<String>,
+    /// How often the same was found again, elsewhere.
+    pub repeats: usize,
 }
 
 impl Diagnostic {
@@ -47,6 +50,7 @@ impl Diagnostic {
             label: None,
             notes: vec![],
             hint: None,
+            repeats: 0,
         }
     }
 
@@ -90,6 +94,8 @@ pub struct Sink {
     errors: usize,
     warnings: usize,
     dropped: usize,
+    /// Where those stand that are told once and counted: by code and message.
+    counted: HashMap<(&'static str, String), usize>,
 }
 
 impl Sink {
@@ -109,6 +115,21 @@ impl Sink {
             self.diagnostics.push(diagnostic);
         } else {
             self.dropped += 1;
+        }
+    }
+
+    /// Takes a diagnostic that may be true of thousands of places: of those with the same words the first is kept, and the
+    /// others are counted in its [`repeats`](Diagnostic::repeats).
+    pub fn push_or_count(&mut self, diagnostic: Diagnostic) {
+        let key = (diagnostic.code, diagnostic.message.clone());
+        if let Some(first) = self.counted.get(&key).and_then(|&i| self.diagnostics.get_mut(i)) {
+            first.repeats += 1;
+            return;
+        }
+        let place = self.diagnostics.len();
+        self.push(diagnostic);
+        if self.diagnostics.len() > place {
+            self.counted.insert(key, place);
         }
     }
 

@@ -1,7 +1,7 @@
 //! Files to trees, with what they include.
 
 use crate::codes;
-use crate::include::INCLUDE;
+use crate::include::{INCLUDE, set_uids_apart};
 use crate::limits::Limits;
 use crate::{text, tree};
 use indigo_decl::{Element, Resolved, Resolver, bind};
@@ -221,7 +221,11 @@ impl<'a> Reader<'a> {
             self.sink.push(Diagnostic::error(codes::INCLUDE_CYCLE, span, message));
             return vec![];
         }
-        let Some(root) = self.scene(&file, Some(span)) else { return vec![] };
+        let Some(mut root) = self.scene(&file, Some(span)) else { return vec![] };
+        if node.bool("offset_uids") {
+            // Files are counted down.
+            set_uids_apart(&mut root.children, self.limits.files - self.files_left);
+        }
         root.children
     }
 }

@@ -1,7 +1,7 @@
 //! Packed scenes: what is written comes back, and what could do harm is refused.
 
 use indigo_decl::{ResolveError, Resolved, Resolver};
-use indigo_igs::pack::{Pack, PackError, PackLimits, PackResolver, PackWriter};
+use indigo_igs::pack::{MaterialPacks, Pack, PackError, PackLimits, PackResolver, PackWriter};
 use std::io::{Cursor, Write};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
@@ -198,5 +198,40 @@ fn a_packed_scene_is_read_as_it_lies() {
     for path in ["/etc/passwd", "../../etc/passwd", "C:/passwd", "inifile.xml/../../passwd"] {
         let read = from_scene(path);
         assert!(matches!(read, Err(ResolveError::NotFound { .. })), "{path}: {read:?}");
+    }
+}
+
+/// A disk with one packed material, and a file beside it.
+struct Shelf(Vec<u8>);
+
+impl Resolver for Shelf {
+    fn read(&self, path: &str, _from: &str) -> Result<Resolved, ResolveError> {
+        let bytes = match path {
+            "lib/wall.PIGM" => self.0.clone(),
+            "gold.nk" => b"outside".to_vec(),
+            _ => return Err(ResolveError::NotFound { looked: vec![path.to_owned()] }),
+        };
+        Ok(Resolved { path: path.to_owned(), bytes: bytes.into() })
+    }
+}
+
+#[test]
+fn a_packed_material_stands_for_the_material_in_it() {
+    let packed = archive(&[("wall.igm", b"<scenedata/>"), ("PACKED_0_PACKED_0_brick.jpg", b"brick")]);
+    let shelf = Shelf(packed);
+    let packs = MaterialPacks::new(&shelf, PackLimits::default());
+    let material = packs.read("lib/wall.PIGM", "room.igs").unwrap();
+    assert_eq!((&*material.path, &*material.bytes), ("lib/wall.PIGM/wall.igm", &b"<scenedata/>"[..]));
+    // What it names is in the pack, whatever folder it was in; and what is not, where the pack is.
+    let brick = packs.read("maps\\packed_0_PACKED_0_brick.jpg", &material.path).unwrap();
+    assert_eq!(&*brick.bytes, b"brick");
+    assert_eq!(&*packs.read("gold.nk", &material.path).unwrap().bytes, b"outside");
+    assert!(packs.read("PACKED_0_PACKED_0_brick.jpg", "room.igs").is_err(), "not from elsewhere");
+    for bad in
+        [b"no archive".to_vec(), archive(&[("a.txt", b"")]), archive(&[("a.igm", b""), ("b.igm", b"")])]
+    {
+        let shelf = Shelf(bad);
+        let read = MaterialPacks::new(&shelf, PackLimits::default()).read("lib/wall.PIGM", "room.igs");
+        assert!(matches!(read, Err(ResolveError::Unreadable { .. })));
     }
 }

@@ -106,6 +106,13 @@ impl AreaLight {
         (scale.is_finite() && self.area_m2 > 0.0).then_some(self)
     }
 
+    /// The lamp with its spectrum multiplied by another.
+    #[must_use]
+    pub fn times(mut self, factor: &Spectrum) -> Self {
+        self.radiance = self.radiance.times(factor);
+        self
+    }
+
     /// The lamp with the directions and the flux of a profile, whose horizontal angles count from the `x_axis`
     /// of the mesh, in render space; `None` where it has no light to scale, or no area.
     #[must_use]

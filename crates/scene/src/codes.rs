@@ -29,6 +29,16 @@ indigo_decl::codes! {
     ROUNDED = "W0315", "(a lamp of a metre, a million kilometres from the camera)";
     /// A turbidity beyond what the model of the sky knows.
     TURBIDITY = "W0309", "<skylight><sundir>0 0.6 1</sundir><turbidity>30</turbidity></skylight>";
+    /// What moves is rendered standing still.
+    STANDS_STILL = "W0317", "(a `model` with two `keyframe`s in different places)";
+    /// A model that lists more or fewer materials than its mesh has.
+    MATERIAL_COUNT = "W0318", "(a `model` whose `materials` are two, of a mesh with one)";
+    /// Something of an emitting material that gives no light.
+    NOT_EMITTING = "W0319", "(a `sphere` whose material has `base_emission`)";
+    /// A kind of a later format version that another stands in for.
+    STANDS_IN = "W0320", "<material><name>a</name><coating><substrate_material_name>white</substrate_material_name></coating></material><sphere><center>0 0 0</center><radius>1</radius><material_name>a</material_name></sphere>";
+    /// A scale or a profile of a material that the model does not emit by.
+    IDLE_SCALE = "W0321", "(an `emission_scale` of a material that the model does not have)";
     /// A name that nothing defines.
     UNKNOWN_NAME = "E0301", "<sphere><center>0 0 0</center><radius>1</radius><material_name>whiet</material_name></sphere>";
     /// A file that cannot be had.

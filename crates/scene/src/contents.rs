@@ -69,6 +69,8 @@ pub fn load_contents(path: &str, options: &LoadOptions) -> LoadedContents {
     });
     for (source, uses) in &mut uses {
         uses.sort_by_key(|u| u.span.start);
+        // A texture of a list may be in use several times.
+        uses.dedup_by_key(|u| u.span.start);
         for Use { span, .. } in uses {
             check_replaceable(*span, sources.text(*source), &mut sink);
         }

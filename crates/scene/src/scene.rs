@@ -183,6 +183,11 @@ pub struct SceneStats {
 }
 
 impl Scene {
+    /// All materials in use, in the order of their numbers.
+    pub fn materials(&self) -> &[Material] {
+        &self.materials
+    }
+
     /// The material at a point of a surface.
     #[inline]
     pub fn material_at(&self, at: &SurfacePoint) -> &Material {

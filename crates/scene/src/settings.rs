@@ -2,7 +2,7 @@
 
 use crate::schema::filter::{GAUSSIAN, MN_CUBIC};
 use crate::schema::settings::RENDERER_SETTINGS;
-use indigo_decl::{Element, Field, Node, Value, bind, report_unread};
+use indigo_decl::{Element, Field, Node, Presence, Value, bind, report_unread};
 use indigo_diag::{Severity, Sink, Span, Spanned};
 
 /// Which layer a setting's value comes from.
@@ -114,6 +114,16 @@ impl Settings {
         self.deciding(field).1.node(field)
     }
 
+    /// The blocks of a setting that may be given several times.
+    pub fn nodes(&self, field: &str) -> impl Iterator<Item = &Node> {
+        self.deciding(field).1.nodes(field)
+    }
+
+    /// All blocks of a setting that may be given several times, as text.
+    pub fn listed_blocks(&self, field: &str) -> String {
+        self.nodes(field).map(block_text).collect::<Vec<_>>().join("; ")
+    }
+
     /// Marks a setting as used though its value has no effect in this run.
     pub fn disregard(&self, field: &str) {
         for (_, node) in &self.layers {
@@ -144,6 +154,10 @@ impl Settings {
 
 /// A setting's value as text.
 fn text_of(node: &Node, field: &Field) -> String {
+    if field.presence == Presence::Repeated {
+        let blocks: Vec<String> = node.nodes(field.name).map(block_text).collect();
+        return if blocks.is_empty() { "-".to_owned() } else { blocks.join("; ") };
+    }
     if node.is_block(field.name) {
         return node.node(field.name).map_or_else(|| "-".to_owned(), block_text);
     }

@@ -5,9 +5,11 @@ use indigo_decl::{Block, ResolveError, Resolved, Resolver, reference};
 use indigo_diag::{Severity, Sink, Style, to_text};
 use indigo_light::kinds::mesh;
 use indigo_math::rng::{Rng, key};
+use indigo_scene::schema::geometry::{MATERIALS, MODEL};
 use indigo_scene::schema::settings::RENDERER_SETTINGS;
-use indigo_scene::schema::{SCENE, tonemapping};
+use indigo_scene::schema::{SCENE, emission, tonemapping};
 use indigo_scene::{LoadOptions, Loaded, load};
+use indigo_texture::declare::{SPHERICAL, TEX_COORD_GENERATION};
 use std::time::{Duration, Instant};
 
 struct One(Vec<u8>);
@@ -56,7 +58,7 @@ fn is_one_of(block: &Block, blocks: &[&Block]) -> bool {
 /// The example of a block, within what it needs around it to stand in a scene.
 fn in_a_scene(block: &Block) -> Option<String> {
     let (name, example) = (block.name, block.example);
-    if is_one_of(block, indigo_scatter::materials::KINDS) {
+    if is_one_of(block, indigo_scatter::materials::MATERIAL_KIND.blocks) {
         return Some(format!("<material><name>{name}</name>{example}</material>"));
     }
     if is_one_of(block, indigo_scatter::media::KINDS) {
@@ -68,17 +70,27 @@ fn in_a_scene(block: &Block) -> Option<String> {
     if is_one_of(block, tonemapping::TONEMAPPING.alternatives.expect("tone mappings").blocks) {
         return Some(format!("<tonemapping>{example}</tonemapping>"));
     }
+    if is_one_of(block, &[&emission::IES_PROFILE, &emission::EMISSION_SCALE, &MATERIALS]) {
+        return Some(with_child(&MODEL, example));
+    }
+    if is_one_of(block, &[&TEX_COORD_GENERATION, &SPHERICAL]) {
+        let generation = example.replace("<spherical>", "<tex_coord_generation><spherical>");
+        let generation = generation.replace("</spherical>", "</spherical></tex_coord_generation>");
+        return Some(format!(
+            "<material><name>g</name><diffuse><albedo_texture><path>a.png</path>{generation}</albedo_texture></diffuse></material>"
+        ));
+    }
     Some(match name {
         "scene" => return None,
         _ if SCENE.fields.iter().any(|f| f.name == name) => example.to_owned(),
         "external" => format!("<mesh><name>e</name>{example}</mesh>"),
         "latlong" => format!("<env_map>{example}</env_map>"),
         "texture" => format!("<material><name>t</name><diffuse>{example}</diffuse></material>"),
-        "aperture_shape" | "bloom" => with_child(&CAMERA, example),
+        "aperture_shape" | "bloom" | "keyframe" => with_child(&CAMERA, example),
         "circular" | "image" | "generated" => {
             with_child(&CAMERA, &format!("<aperture_shape>{example}</aperture_shape>"))
         }
-        "render_region" => with_child(&RENDERER_SETTINGS, example),
+        "render_region" | "layer_setting" => with_child(&RENDERER_SETTINGS, example),
         "box" => with_child(&RENDERER_SETTINGS, &format!("<splat_filter>{example}</splat_filter>")),
         "ies_profile" => with_child(&mesh::BLOCK, example),
         _ => return None,

@@ -4,7 +4,7 @@
 //! allow different numbers: so the tables check that numbers are finite, and whoever uses a spectrum
 //! checks the rest.
 
-use indigo_decl::{Alternatives, Block, Field, Kind, Later, Presence, Range};
+use indigo_decl::{Alternatives, Block, Field, Kind, Presence, Range};
 
 /// Unit of the value of a spectrum; only an emitter has the unit, elsewhere the number stands for itself.
 const VALUE: &str = "W m^-3 sr^-1, or as its use says";
@@ -68,6 +68,25 @@ pub static PEAK: Block = Block::new(
 </peak>",
 );
 
+/// Factor on a colour.
+const GAIN: Field = Field::new(
+    "gain",
+    Kind::Real,
+    Presence::Default("1"),
+    "Factor on the colour, after `gamma`, as later versions write it.",
+)
+.range(Range::AtLeast(0.0));
+
+/// Tristimulus values.
+pub static XYZ: Block = Block::new(
+    "xyz",
+    "A smooth spectrum of given tristimulus values of the CIE 1931 observer, as later versions write it: that of the \
+     linear Rec. 709 colour with these values, where white (1, 1, 1) has the Y of 1. Colours that Rec. 709 does not \
+     hold are brought to its border.",
+    &[Field::new("xyz", Kind::Vec3, Presence::Required, "X, Y and Z.").unit(VALUE), GAIN],
+)
+.with_example("<xyz><xyz>0.95 1 1.09</xyz><gain>1</gain></xyz>");
+
 /// A colour.
 pub static RGB: Block = Block::new(
     "rgb",
@@ -85,9 +104,9 @@ pub static RGB: Block = Block::new(
              suits coefficients.",
         )
         .range(Range::Above(0.0)),
+        GAIN,
     ],
 )
-.with_later(&[Later::new("gain", "1.1")])
 .with_example("<rgb><rgb>0.8 0.3 0.6</rgb><gamma>2.2</gamma></rgb>");
 
 /// A table.
@@ -129,7 +148,5 @@ pub static REGULAR_TABULATED: Block = Block::new(
 );
 
 /// The kinds of spectrum.
-pub static SPECTRUM: Alternatives = Alternatives {
-    later: &[Later::new("xyz", "3.0")],
-    ..Alternatives::new("spectrum", &[&UNIFORM, &BLACKBODY, &PEAK, &RGB, &REGULAR_TABULATED])
-};
+pub static SPECTRUM: Alternatives =
+    Alternatives::new("spectrum", &[&UNIFORM, &BLACKBODY, &PEAK, &RGB, &XYZ, &REGULAR_TABULATED]);

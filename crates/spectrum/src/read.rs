@@ -1,6 +1,7 @@
 //! Spectra from scene files. What a number may be depends on the use, so each use is a function.
 
 use crate::Spectrum;
+use crate::adaptation::rgb_of_xyz;
 use indigo_decl::{Node, codes};
 use indigo_diag::{Diagnostic, Sink, Span};
 
@@ -10,6 +11,7 @@ enum Use {
     Reflectance,
     Emission,
     Coefficient,
+    Factor,
 }
 
 /// The largest radiance (W m^-3 sr^-1) and the largest coefficient (1/m) that a scene may give. The sun has 3e13;
@@ -28,6 +30,15 @@ pub fn reflectance(node: &Node, sink: &mut Sink) -> Spectrum {
 pub fn emission(node: &Node, sink: &mut Sink) -> Spectrum {
     refuse_negative(node, "an emitter", sink);
     let spectrum = build(node, Use::Emission, sink).clamped(0.0, f64::INFINITY);
+    refuse_excess(&spectrum, node.span, sink);
+    spectrum
+}
+
+/// What multiplies an emission, as an image map does: white (1, 1, 1) changes nothing. Negative values are errors, but for
+/// the noise of measured tables, which counts as 0.
+pub fn factor(node: &Node, sink: &mut Sink) -> Spectrum {
+    refuse_negative(node, "a factor", sink);
+    let spectrum = build(node, Use::Factor, sink).clamped(0.0, f64::INFINITY);
     refuse_excess(&spectrum, node.span, sink);
     spectrum
 }
@@ -65,7 +76,7 @@ pub fn mean_cosine(node: &Node, sink: &mut Sink) -> Spectrum {
 fn refuse_negative(node: &Node, what: &str, sink: &mut Sink) {
     for field in node.block.fields {
         let lowest = match field.name {
-            "rgb" => node.vec3("rgb").into_iter().fold(f64::INFINITY, f64::min),
+            "rgb" | "xyz" => node.vec3(field.name).into_iter().fold(f64::INFINITY, f64::min),
             "value" | "base_value" | "peak_value" => node.real(field.name),
             _ => continue,
         };
@@ -96,15 +107,28 @@ fn build(node: &Node, purpose: Use, sink: &mut Sink) -> Spectrum {
             node.real("peak_value"),
         ),
         "rgb" => {
-            let gamma = node.real("gamma");
+            let (gamma, gain) = (node.real("gamma"), node.real("gain"));
             let rgb = node.vec3("rgb").map(|v| if gamma == 1.0 { v } else { v.max(0.0).powf(gamma) });
-            match purpose {
-                Use::Reflectance => Spectrum::rgb_reflectance(rgb),
-                Use::Emission => Spectrum::rgb_emission(rgb),
-                Use::Coefficient => Spectrum::rgb_coefficient(rgb),
-            }
+            colour(rgb.map(|v| v * gain), purpose)
+        }
+        "xyz" => {
+            let gain = node.real("gain");
+            colour(rgb_of_xyz(node.vec3("xyz")).map(|v| v.max(0.0) * gain), purpose)
         }
         _ => table(node, sink),
+    }
+}
+
+fn colour(rgb: [f64; 3], purpose: Use) -> Spectrum {
+    match purpose {
+        Use::Reflectance => Spectrum::rgb_reflectance(rgb),
+        Use::Emission => Spectrum::rgb_emission(rgb),
+        Use::Coefficient => Spectrum::rgb_coefficient(rgb),
+        Use::Factor => {
+            // A reflectance's shape, as an image map on a lamp has it; a factor may go beyond 1.
+            let scale = rgb.into_iter().fold(1.0, f64::max);
+            Spectrum::rgb_reflectance(rgb.map(|v| v / scale)).scaled(scale)
+        }
     }
 }
 

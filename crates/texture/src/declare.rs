@@ -2,6 +2,64 @@
 
 use indigo_decl::{Block, Field, Kind, Later, Presence, Range};
 
+/// The declaration of `tex_coord_generation`.
+pub static TEX_COORD_GENERATION: Block = Block::new(
+    "tex_coord_generation",
+    "How texture coordinates are made. On a surface they are those of the mesh, whatever is said here, with a warning where \
+     that makes a difference; round a background they are `spherical`.",
+    &[
+        Field::new("uv", Kind::Block(&UV), Presence::Optional, "Those of the mesh, transformed."),
+        Field::new("spherical", Kind::Block(&SPHERICAL), Presence::Optional, "By latitude and longitude."),
+    ],
+)
+.with_later(&[
+    Later::new("box", "4.0"),
+    Later::new("cubic", "4.0"),
+    Later::new("cylindrical", "4.0"),
+    Later::new("triplanar", "4.0"),
+])
+.with_example("<tex_coord_generation><uv><matrix>1 0 0 1</matrix><translation>0 0</translation></uv></tex_coord_generation>");
+
+/// The declaration of `uv`.
+pub static UV: Block = Block::new(
+    "uv",
+    "The texture coordinates of the mesh, transformed. Nothing but the identity is rendered.",
+    &[
+        Field::new("matrix", Kind::Reals, Presence::Optional, "A matrix, row after row."),
+        Field::new("translation", Kind::Reals, Presence::Optional, "What is added then."),
+    ],
+)
+.with_example("<uv><matrix>1 0 0 1</matrix><translation>0 0</translation></uv>");
+
+/// The declaration of `spherical` in `tex_coord_generation`.
+pub static SPHERICAL: Block = Block::new(
+    "spherical",
+    "By latitude and longitude, as `latlong` in `env_map`: the middle of the map lies towards +y before it is turned.",
+    &[Field::new("rotation", Kind::Block(&ROTATION), Presence::Optional, "How the map is turned.")],
+)
+.with_example("<spherical><rotation><axis_rotation><axis>0 0 1</axis><angle>0.5</angle></axis_rotation></rotation></spherical>");
+
+/// The declaration of `rotation` in `spherical`.
+pub static ROTATION: Block = Block::new(
+    "rotation",
+    "How a map round a background is turned.",
+    &[Field::new("axis_rotation", Kind::Block(&AXIS_ROTATION), Presence::Optional, "About an axis.")],
+)
+.with_later(&[Later::new("matrix", "3.0")])
+.with_example("<rotation><axis_rotation><axis>0 0 1</axis><angle>0.5</angle></axis_rotation></rotation>");
+
+/// The declaration of `axis_rotation`.
+pub static AXIS_ROTATION: Block = Block::new(
+    "axis_rotation",
+    "A turn by an angle about an axis, counter-clockwise for someone towards whom the axis points. About other axes than z \
+     it is not rendered.",
+    &[
+        Field::new("axis", Kind::Vec3, Presence::Required, "The axis."),
+        Field::new("angle", Kind::Real, Presence::Required, "The angle.").unit("rad"),
+    ],
+)
+.with_example("<axis_rotation><axis>0 0 1</axis><angle>0.5</angle></axis_rotation>");
+
 /// An image map.
 ///
 /// Its element is called after its use: `albedo_texture`, `bump_map`, `exponent_map`, `blend_map`, `texture`.
@@ -19,8 +77,16 @@ pub static TEXTURE: Block = Block::new(
             "uv_set",
             Kind::Text,
             Presence::Default("default"),
-            "Name of the set of texture coordinates to look the image up with; the mesh must expose it.",
+            "Name of the set of texture coordinates to look the image up with; the mesh must expose it. Where it is not \
+             given, and the mesh exposes no set called `default`, it is the first one.",
         ),
+        Field::new(
+            "uv_set_index",
+            Kind::Int,
+            Presence::Optional,
+            "Number of the set of texture coordinates, from 0, as later versions write it in place of `uv_set`.",
+        )
+        .range(Range::AtLeast(0.0)),
         Field::new(
             "path",
             Kind::Path,
@@ -44,12 +110,17 @@ pub static TEXTURE: Block = Block::new(
              for, often as small as 0.001.",
         ),
         Field::new("c", Kind::Real, Presence::Default("0"), "Added at the end."),
+        Field::new(
+            "tex_coord_generation",
+            Kind::Block(&TEX_COORD_GENERATION),
+            Presence::Optional,
+            "How texture coordinates are made, as later versions write it.",
+        ),
     ],
 )
 .with_later(&[
-    Later::new("uv_set_index", "1.1"),
-    Later::new("tex_coord_generation", "2.0"),
-    Later::new("smooth", "2.0"),
+    // Texels are mixed evenly, and bumps smoothly, whatever it says.
+    Later::new("smooth", "2.0").unless("true"),
 ])
 .with_example(
     "<albedo_texture>

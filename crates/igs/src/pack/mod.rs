@@ -8,10 +8,12 @@
 //! What is read may come from anybody. [`Pack::open`] refuses whatever could do harm: names that lead out of the
 //! archive, links, members that share their bytes, and archives that would become far larger than they are.
 
+mod material;
 mod read;
 mod resolve;
 mod write;
 
+pub use material::MaterialPacks;
 pub use read::{Pack, PackError, PackLimits};
 pub use resolve::PackResolver;
 pub use write::PackWriter;
@@ -33,7 +35,7 @@ fn without_prefix(name: &str) -> &str {
     }
 }
 
-/// Whether an archive's member is a scene file that no other file of the archive names.
-fn is_main(name: &str) -> bool {
-    !name.contains('/') && name.to_ascii_lowercase().ends_with(".igs") && without_prefix(name) == name
+/// Whether an archive's member is a file of an ending that no other file of the archive names.
+fn is_main(name: &str, ending: &str) -> bool {
+    !name.contains('/') && name.to_ascii_lowercase().ends_with(ending) && without_prefix(name) == name
 }

@@ -59,6 +59,9 @@ pub enum PackError {
     /// No scene in it, or more than one.
     #[error("a packed scene holds one scene, a file that ends in .igs; this one holds {}", names(.0))]
     Scenes(Vec<String>),
+    /// No material in it, or more than one.
+    #[error("a packed material holds one material, a file that ends in .igm; this one holds {}", names(.0))]
+    Materials(Vec<String>),
 }
 
 fn names(scenes: &[String]) -> String {
@@ -126,10 +129,24 @@ impl Pack {
     /// # Errors
     /// [`PackError::Scenes`] if there is none or more than one.
     pub fn main(&self) -> Result<&str, PackError> {
-        let mut scenes: Vec<&str> = self.members.iter().map(|m| &*m.name).filter(|n| is_main(n)).collect();
+        self.only(".igs").map_err(PackError::Scenes)
+    }
+
+    /// The name of the material of a packed one.
+    ///
+    /// # Errors
+    /// [`PackError::Materials`] if there is none or more than one.
+    pub fn material(&self) -> Result<&str, PackError> {
+        self.only(".igm").map_err(PackError::Materials)
+    }
+
+    /// The only file of an ending that no other names; where there is none or more than one, all there are.
+    fn only(&self, ending: &str) -> Result<&str, Vec<String>> {
+        let is_main = |name: &&str| is_main(name, ending);
+        let mut scenes: Vec<&str> = self.members.iter().map(|m| &*m.name).filter(is_main).collect();
         match (scenes.pop(), scenes.is_empty()) {
             (Some(scene), true) => Ok(scene),
-            (last, _) => Err(PackError::Scenes(scenes.into_iter().chain(last).map(str::to_owned).collect())),
+            (last, _) => Err(scenes.into_iter().chain(last).map(str::to_owned).collect()),
         }
     }
 

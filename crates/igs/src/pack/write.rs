@@ -65,7 +65,7 @@ impl<W: Write + Seek> PackWriter<W> {
         let plain = plain_name(path);
         let stem = plain.rsplit_once('.').map_or(&*plain, |(stem, _)| stem);
         let name = format!("{stem}.igs");
-        let is_sound = is_main(&name) && harm(&name).is_none();
+        let is_sound = is_main(&name, ".igs") && harm(&name).is_none();
         self.member(if is_sound { &name } else { "scene.igs" }, "igs", scene)?;
         self.zip.finish()?.flush()?;
         Ok(self.names.len())

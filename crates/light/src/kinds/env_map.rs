@@ -81,10 +81,12 @@ pub static SPHERICAL: Block = Block::new(
 );
 
 /// How directions lie in a map.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Layout {
     /// Latitude and longitude.
     LatLong,
+    /// The same, the map turned about the z axis by a part of a full turn: to the left as seen from inside.
+    Turned(Real),
     /// The angle from the middle in proportion to the distance.
     Angular,
 }
@@ -94,11 +96,8 @@ impl Layout {
     #[inline]
     fn place(self, d: Vec3) -> Vec2 {
         match self {
-            Self::LatLong => {
-                let turned = atan2_turns(d.x, d.y) + 0.5;
-                let from_top = 2.0 * atan2_turns((d.x * d.x + d.y * d.y).sqrt(), d.z);
-                Vec2::new(if turned >= 1.0 { turned - 1.0 } else { turned }, from_top)
-            }
+            Self::LatLong => lat_long_place(d, 0.0),
+            Self::Turned(turn) => lat_long_place(d, turn),
             Self::Angular => {
                 let across = (d.x * d.x + d.z * d.z).sqrt();
                 let r = 2.0 * atan2_turns(across, d.y);
@@ -113,12 +112,8 @@ impl Layout {
     #[inline]
     fn direction(self, at: Vec2) -> Option<(Vec3, Real)> {
         match self {
-            Self::LatLong => {
-                let (sin_x, cos_x) = sin_cos_turns(at.x - 0.5);
-                let (sin_y, cos_y) = sin_cos_turns(0.5 * at.y);
-                let stretch = 2.0 * PI * PI * sin_y;
-                (stretch > 0.0).then(|| (Vec3::new(sin_y * sin_x, sin_y * cos_x, cos_y), stretch))
-            }
+            Self::LatLong => lat_long_direction(at, 0.0),
+            Self::Turned(turn) => lat_long_direction(at, turn),
             Self::Angular => {
                 let (x, z) = (2.0 * at.x - 1.0, 1.0 - 2.0 * at.y);
                 let r = (x * x + z * z).sqrt();
@@ -130,6 +125,25 @@ impl Layout {
             }
         }
     }
+}
+
+/// See [`Layout::place`].
+#[inline]
+fn lat_long_place(d: Vec3, turn: Real) -> Vec2 {
+    let turned = atan2_turns(d.x, d.y) + 0.5 + turn;
+    let from_top = 2.0 * atan2_turns((d.x * d.x + d.y * d.y).sqrt(), d.z);
+    let across = turned - turned.floor();
+    // What is just below 0 is rounded to 1.
+    Vec2::new(if across >= 1.0 { 0.0 } else { across }, from_top)
+}
+
+/// See [`Layout::direction`].
+#[inline]
+fn lat_long_direction(at: Vec2, turn: Real) -> Option<(Vec3, Real)> {
+    let (sin_x, cos_x) = sin_cos_turns(at.x - 0.5 - turn);
+    let (sin_y, cos_y) = sin_cos_turns(0.5 * at.y);
+    let stretch = 2.0 * PI * PI * sin_y;
+    (stretch > 0.0).then(|| (Vec3::new(sin_y * sin_x, sin_y * cos_x, cos_y), stretch))
 }
 
 /// A picture of the surroundings.
@@ -180,6 +194,13 @@ impl EnvMap {
         self
     }
 
+    /// The same map with all its light multiplied by a factor.
+    #[must_use]
+    pub fn scaled(self, factor: f64) -> Self {
+        let texels = self.texels.iter().map(|t| t.map(|v| (f64::from(v) * factor) as f32)).collect();
+        Self { texels, total_luminance: self.total_luminance * factor, ..self }
+    }
+
     /// For the laws: coarse maps with bright, dark and coloured texels.
     pub(super) fn examples() -> Vec<Self> {
         let texel = |i: usize| {
@@ -188,7 +209,14 @@ impl EnvMap {
         };
         let map = |layout, w: usize, h: usize| Self::new(layout, w, h, (0..w * h).map(texel).collect());
         let evenly = map(Layout::LatLong, 6, 4).drawn_evenly();
-        vec![map(Layout::LatLong, 8, 5), map(Layout::Angular, 7, 7), map(Layout::LatLong, 2, 1), evenly]
+        let turned = map(Layout::Turned(0.3), 8, 5);
+        vec![
+            map(Layout::LatLong, 8, 5),
+            map(Layout::Angular, 7, 7),
+            map(Layout::LatLong, 2, 1),
+            evenly,
+            turned,
+        ]
     }
 
     /// Linear Rec. 709 emission from a unit direction.
@@ -311,6 +339,18 @@ mod tests {
                 let (back, _) = layout.direction(at).unwrap();
                 assert!((back - d).length() < 1e-6, "{layout:?} {d:?} {back:?}");
             }
+        }
+    }
+
+    #[test]
+    fn a_map_that_is_turned_to_the_left_shows_what_was_ahead_there() {
+        let (ahead, left) = (Vec3::new(0.0, 1.0, 0.0), Vec3::new(-1.0, 0.0, 0.0));
+        let (level, turned) = (Layout::LatLong, Layout::Turned(0.25));
+        let difference = turned.place(left) - level.place(ahead);
+        assert!(difference.x.abs().max(difference.y.abs()) < 1e-6);
+        for d in [left, Vec3::new(0.6, -0.48, 0.64)] {
+            let (back, _) = turned.direction(turned.place(d)).unwrap();
+            assert!((back - d).length() < 1e-6, "{back:?}");
         }
     }
 

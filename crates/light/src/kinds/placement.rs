@@ -4,7 +4,8 @@ use indigo_decl::{Block, Field, Kind, Presence, Range};
 
 /// Name of the mesh that is placed.
 pub const MESH_NAME: Field =
-    Field::new("mesh_name", Kind::Reference("mesh"), Presence::Required, "Name of the mesh to place.");
+    Field::new("mesh_name", Kind::Reference("mesh"), Presence::Required, "Name of the mesh to place.")
+        .aliases(&["geometry_uid"]);
 
 /// Where the mesh's origin goes.
 pub const POS: Field = Field::new(

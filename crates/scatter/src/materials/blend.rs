@@ -6,7 +6,7 @@
 
 use super::{Material, MaterialContext, MaterialId, MaterialResources};
 use crate::media::MediumId;
-use indigo_decl::{Block, Field, Group, Kind, Later, Node, Presence, Range, codes};
+use indigo_decl::{Block, Field, Group, Kind, Node, Parameter, Presence, Range, StandIn, codes};
 use indigo_diag::Diagnostic;
 use indigo_math::{Float, Real, Vec2};
 use indigo_texture::TextureId;
@@ -26,24 +26,32 @@ pub static BLOCK: Block = Block::new(
              `blend_map`, which takes its place.",
         )
         .range(Range::Within(0.0, 1.0)),
-        Field::new("a_name", Kind::Reference("material"), Presence::Required, "Name of material a."),
-        Field::new("b_name", Kind::Reference("material"), Presence::Required, "Name of material b."),
+        Field::new("a_name", Kind::Reference("material"), Presence::Required, "Name of material a.")
+            .aliases(&["a_uid"]),
+        Field::new("b_name", Kind::Reference("material"), Presence::Required, "Name of material b.")
+            .aliases(&["b_uid"]),
         Field::new(
             "blend_map",
             Kind::Block(&TEXTURE),
             Presence::Optional,
             "An image map that takes the place of `blend_factor`.",
         ),
+        Field::new(
+            "step_blend",
+            Kind::Bool,
+            Presence::Default("false"),
+            "Whether there is only one or the other material at any point: b where the share is at least 0.5.",
+        ),
     ],
 )
 .with_needs(&[Group::any(&["blend_factor", "blend_map"])])
-.with_later(&[
-    Later::new("blend", "1.1"),
-    Later::new("step_blend", "2.0"),
-    Later::new("texture", "1.1"),
-    Later::new("a_uid", "3.0"),
-    Later::new("b_uid", "3.0"),
-])
+.with_parameters(&[Parameter {
+    name: "blend",
+    since: "1.1",
+    constant: "blend_factor",
+    texture: "blend_map",
+    stand_in: StandIn::Text("0.5"),
+}])
 .with_example(
     "<blend>
     <blend_factor>0.5</blend_factor>
@@ -73,6 +81,8 @@ pub struct Blend {
 enum Share {
     Constant(Real),
     Map(TextureId),
+    /// 1 where the map is at least 0.5, and 0 elsewhere.
+    Steps(TextureId),
 }
 
 /// What is known of a material as a constituent.
@@ -147,12 +157,14 @@ impl Facts {
 impl Blend {
     /// From its element.
     pub fn build(node: &Node, resources: &mut dyn MaterialResources) -> Self {
-        let share = match node.node("blend_map") {
-            Some(map) => {
-                node.disregard_field("blend_factor");
-                Share::Map(resources.texture(map))
-            }
-            None => Share::Constant(Real::from_f64(node.opt_real("blend_factor").map_or(0.0, |f| f.value))),
+        let is_stepped = node.bool("step_blend");
+        let share = if let Some(map) = node.node("blend_map") {
+            node.disregard_field("blend_factor");
+            let map = resources.texture(map);
+            if is_stepped { Share::Steps(map) } else { Share::Map(map) }
+        } else {
+            let share = node.opt_real("blend_factor").map_or(0.0, |f| f.value);
+            Share::Constant(if is_stepped { step(Real::from_f64(share)) } else { Real::from_f64(share) })
         };
         let [a, b] = ["a_name", "b_name"].map(|field| resources.material(node, field));
         let [of_a, of_b] = [a, b].map(|id| Facts::of(resources.built(id)));
@@ -177,6 +189,10 @@ impl Blend {
                 let share = map.scalar(uv(map.uv_set));
                 // A texel that is no number counts as 0.
                 if share > 0.0 { share.min(1.0) } else { 0.0 }
+            }
+            Share::Steps(id) => {
+                let map = &context.textures[id as usize];
+                step(map.scalar(uv(map.uv_set)))
             }
         }
     }
@@ -226,6 +242,12 @@ impl Blend {
         let of = |id: MaterialId| context.materials[id as usize].unseen_share(context, uv);
         (1.0 - share) * of(self.a) + share * of(self.b)
     }
+}
+
+/// All or nothing of a share.
+#[inline]
+fn step(share: Real) -> Real {
+    if share >= 0.5 { 1.0 } else { 0.0 }
 }
 
 #[cfg(test)]

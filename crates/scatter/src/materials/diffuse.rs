@@ -1,6 +1,9 @@
 //! `diffuse`: a Lambertian surface.
 
-use super::fields::{ALBEDO_SPECTRUM, ALBEDO_TEXTURE, BUMP_MAP, COLOUR_DEPRECATED, LATER};
+use super::fields::{
+    ALBEDO, ALBEDO_SPECTRUM, ALBEDO_TEXTURE, BASE_EMISSION, BASE_EMISSION_PARAMETER, BUMP, BUMP_MAP,
+    COLOUR_DEPRECATED, EMISSION, EMISSION_PARAMETER, EMISSION_TEXTURE, LATER, LAYER,
+};
 use super::{MaterialContext, MaterialResources, SurfaceKind};
 use crate::reflectance::Reflectance;
 use crate::scatter::{Crossing, LocalSample, Scatter};
@@ -25,9 +28,21 @@ pub static BLOCK: Block = Block::new(
         .deprecated(COLOUR_DEPRECATED),
         ALBEDO_TEXTURE,
         BUMP_MAP,
+        BASE_EMISSION,
+        EMISSION,
+        EMISSION_TEXTURE,
+        LAYER,
     ],
 )
-.with_needs(&[Group::any(&["albedo_spectrum", "colour", "albedo_texture"])])
+.with_needs(&[Group::any(&[
+    "albedo_spectrum",
+    "colour",
+    "albedo_texture",
+    "base_emission",
+    "emission",
+    "emission_texture",
+])])
+.with_parameters(&[BASE_EMISSION_PARAMETER, EMISSION_PARAMETER, ALBEDO, BUMP])
 .with_later(LATER)
 .with_example(
     "<diffuse>
@@ -47,6 +62,11 @@ impl Diffuse {
     /// A surface that scatters nothing.
     pub fn black() -> Self {
         Self { albedo: Reflectance::Spectrum(Spectrum::BLACK) }
+    }
+
+    /// A surface that scatters half of the light.
+    pub fn grey() -> Self {
+        Self { albedo: Reflectance::Spectrum(Spectrum::uniform(0.5)) }
     }
 
     /// From its element.

@@ -1,6 +1,9 @@
 //! `diffuse_transmitter`: a thin sheet that scatters all light to its other side.
 
-use super::fields::{ALBEDO_TEXTURE, COLOUR_DEPRECATED, LATER};
+use super::fields::{
+    ALBEDO, ALBEDO_TEXTURE, BASE_EMISSION, BASE_EMISSION_PARAMETER, COLOUR_DEPRECATED, EMISSION,
+    EMISSION_PARAMETER, EMISSION_TEXTURE, LATER, LAYER,
+};
 use super::{MaterialContext, MaterialResources, SurfaceKind};
 use crate::reflectance::Reflectance;
 use crate::scatter::{Crossing, LocalSample, Scatter};
@@ -32,9 +35,21 @@ pub static BLOCK: Block = Block::new(
         )
         .deprecated(COLOUR_DEPRECATED),
         ALBEDO_TEXTURE,
+        BASE_EMISSION,
+        EMISSION,
+        EMISSION_TEXTURE,
+        LAYER,
     ],
 )
-.with_needs(&[Group::any(&["albedo_spectrum", "colour", "albedo_texture"])])
+.with_needs(&[Group::any(&[
+    "albedo_spectrum",
+    "colour",
+    "albedo_texture",
+    "base_emission",
+    "emission",
+    "emission_texture",
+])])
+.with_parameters(&[BASE_EMISSION_PARAMETER, EMISSION_PARAMETER, ALBEDO])
 .with_later(LATER)
 .with_example(
     "<diffuse_transmitter>

@@ -1,6 +1,6 @@
 //! Fields that several materials share.
 
-use indigo_decl::{Field, Kind, Later, Presence};
+use indigo_decl::{Field, Kind, Later, Node, Parameter, Presence, Range, StandIn};
 use indigo_spectrum::declare::SPECTRUM;
 use indigo_texture::declare::TEXTURE;
 
@@ -9,7 +9,8 @@ pub const ALBEDO_SPECTRUM: Field = Field::new(
     "albedo_spectrum",
     Kind::OneOf(&SPECTRUM),
     Presence::Optional,
-    "The fraction of light that is scattered, at least 0. Values above 1 are silently clamped.",
+    "The fraction of light that is scattered, at least 0. Values above 1 are silently clamped. What emits and has no albedo \
+     scatters nothing.",
 );
 
 /// Why not to write a colour as three bare numbers.
@@ -32,34 +33,122 @@ pub const BUMP_MAP: Field = Field::new(
      is usually small, such as 0.001.",
 );
 
+/// The width of microfacets, where the exponent of a Phong lobe is not given.
+pub const ROUGHNESS: Field = Field::new(
+    "roughness",
+    Kind::Real,
+    Presence::Optional,
+    "The roughness of later versions in place of `exponent`: the width α of the distribution of small facets, from 0 \
+     (smooth) to 1; an exponent n stands for α = √(2 / (n + 2)).",
+)
+.range(Range::Within(0.0, 1.0));
+
+/// Roughness as later versions write it.
+pub const ROUGHNESS_PARAMETER: Parameter = Parameter {
+    name: ROUGHNESS.name,
+    since: "3.0",
+    constant: ROUGHNESS.name,
+    texture: "roughness_map",
+    stand_in: StandIn::Text("0.3"),
+};
+
+/// Whether a material says how rough it is, and not by an exponent.
+pub fn is_rough(node: &Node) -> bool {
+    ["roughness", "roughness_map"].iter().any(|name| node.block.declares(name) && node.has(name))
+}
+
 /// The medium inside.
 pub const INTERNAL_MEDIUM_NAME: Field = Field::new(
     "internal_medium_name",
     Kind::Reference("medium"),
     Presence::Required,
     "Name of the medium that fills the inside of the object. It gives the index of refraction, too.",
+)
+.aliases(&["internal_medium_uid"]);
+
+/// The reflectance as later versions write it.
+pub const ALBEDO: Parameter = Parameter {
+    name: "albedo",
+    since: "1.1",
+    constant: ALBEDO_SPECTRUM.name,
+    texture: ALBEDO_TEXTURE.name,
+    stand_in: StandIn::Uniform("0.5"),
+};
+
+/// Bumps as later versions write them.
+pub const BUMP: Parameter = Parameter {
+    name: "bump",
+    since: "1.1",
+    constant: "",
+    texture: BUMP_MAP.name,
+    stand_in: StandIn::Nothing,
+};
+
+/// What the surface emits.
+pub const BASE_EMISSION: Field = Field::new(
+    "base_emission",
+    Kind::OneOf(&SPECTRUM),
+    Presence::Optional,
+    "Spectral radiance that the front of a mesh of this material emits, besides what it scatters. The model may rescale it.",
+)
+.unit("W m^-3 sr^-1");
+
+/// What multiplies that.
+pub const EMISSION: Field = Field::new(
+    "emission",
+    Kind::OneOf(&SPECTRUM),
+    Presence::Optional,
+    "What multiplies `base_emission`: a colour (1, 1, 1) changes nothing. Where there is no `base_emission` it is the radiance \
+     itself.",
 );
 
-/// What later versions put into every material.
+/// A map in its place.
+pub const EMISSION_TEXTURE: Field = Field::new(
+    "emission_texture",
+    Kind::Block(&TEXTURE),
+    Presence::Optional,
+    "An image map that takes the place of `emission`.",
+);
+
+/// Whose switch it hangs on.
+pub const LAYER: Field = Field::new(
+    "layer",
+    Kind::Int,
+    Presence::Default("0"),
+    "Number of the `layer_setting` in `renderer_settings` that its emission is scaled by.",
+)
+.range(Range::AtLeast(0.0));
+
+/// Emission as later versions write it.
+pub const BASE_EMISSION_PARAMETER: Parameter = Parameter {
+    name: BASE_EMISSION.name,
+    since: "1.1",
+    constant: BASE_EMISSION.name,
+    texture: "",
+    stand_in: StandIn::Uniform("0"),
+};
+
+/// Its factor as later versions write it.
+pub const EMISSION_PARAMETER: Parameter = Parameter {
+    name: EMISSION.name,
+    since: "1.1",
+    constant: EMISSION.name,
+    texture: EMISSION_TEXTURE.name,
+    stand_in: StandIn::Uniform("1"),
+};
+
+/// The fields of what a material of any kind emits. They are read with the lamps of a scene, not with the material.
+pub const EMISSION_FIELDS: [&str; 4] = [BASE_EMISSION.name, EMISSION.name, EMISSION_TEXTURE.name, LAYER.name];
+
+/// What later versions put into every material, and is not rendered.
 pub const LATER: &[Later] = &[
-    Later::new("texture", "1.1"),
-    Later::new("albedo", "1.1"),
-    Later::new("diffuse_albedo", "1.1"),
-    Later::new("specular_reflectivity", "1.1"),
-    Later::new("bump", "1.1"),
-    Later::new("displacement", "1.1"),
-    Later::new("base_emission", "1.1"),
-    Later::new("emission", "1.1"),
-    Later::new("layer", "1.1"),
-    Later::new("internal_medium_uid", "3.0"),
-    Later::new("random_triangle_colours", "2.0"),
-    Later::new("backface_emit", "4.0"),
-    Later::new("emission_sampling_factor", "4.0"),
-    Later::new("invisible_to_camera", "4.0"),
-    Later::new("shadow_catcher", "4.0"),
-    Later::new("absorption_layer_transmittance", "3.0"),
-    Later::new("arch_glass", "3.0"),
-    Later::new("single_face", "3.0"),
-    Later::new("roughness", "3.0"),
-    Later::new("fresnel_scale", "3.0"),
+    Later::new("displacement", "1.1").instead("is left out: the surface stays where its mesh is"),
+    Later::new("random_triangle_colours", "2.0").unless("false"),
+    Later::new("backface_emit", "4.0").unless("false"),
+    // It decides how often the lamp is drawn, and not what it gives.
+    Later::new("emission_sampling_factor", "4.0").unless("1"),
+    Later::new("invisible_to_camera", "4.0").unless("false"),
+    Later::new("shadow_catcher", "4.0").unless("false"),
+    Later::new("arch_glass", "3.0").unless("false"),
+    Later::new("single_face", "3.0").unless("false"),
 ];

@@ -9,13 +9,16 @@
 //! Light that meets a second facet is lost. How much that is, by exponent, angle and index, is told in
 //! `docs/theory/rough-glass.md`, whose tables a test of this file computes anew.
 
-use super::fields::{BUMP_MAP, INTERNAL_MEDIUM_NAME, LATER};
+use super::fields::{
+    BASE_EMISSION, BASE_EMISSION_PARAMETER, BUMP, BUMP_MAP, EMISSION, EMISSION_PARAMETER, EMISSION_TEXTURE,
+    INTERNAL_MEDIUM_NAME, LATER, LAYER, ROUGHNESS, ROUGHNESS_PARAMETER, is_rough,
+};
 use super::{MaterialContext, MaterialResources, SurfaceKind};
 use crate::fresnel::{dielectric, reflectance};
 use crate::media::MediumId;
 use crate::microfacet::Microfacets;
 use crate::scatter::{Crossing, LocalSample, Scatter};
-use indigo_decl::{Block, Field, Kind, Node, Presence, Range};
+use indigo_decl::{Block, Field, Group, Kind, Node, Parameter, Presence, Range, StandIn};
 use indigo_math::{Float, Real, Vec2, Vec3};
 use indigo_spectrum::{LanePdf, SampledSpectrum};
 
@@ -28,14 +31,31 @@ pub static BLOCK: Block = Block::new(
         Field::new(
             "exponent",
             Kind::Real,
-            Presence::Required,
+            Presence::Optional,
             "Exponent of the Phong lobe of the normals of small facets, which spreads reflection and transmission: \
-             from about 1 (broad) to 10000 and more (nearly smooth).",
+             from about 1 (broad) to 10000 and more (nearly smooth). Needed unless there is a `roughness`.",
         )
         .range(Range::Above(0.0)),
+        ROUGHNESS,
         BUMP_MAP,
+        BASE_EMISSION,
+        EMISSION,
+        EMISSION_TEXTURE,
+        LAYER,
     ],
 )
+.with_needs(&[Group::any(&["exponent", "roughness"])])
+.with_parameters(&[BASE_EMISSION_PARAMETER, EMISSION_PARAMETER,
+    Parameter {
+        name: "exponent",
+        since: "1.1",
+        constant: "exponent",
+        texture: "",
+        stand_in: StandIn::Text("1000"),
+    },
+    Parameter { texture: "", ..ROUGHNESS_PARAMETER },
+    BUMP,
+])
 .with_later(LATER)
 .with_example(
     "<glossy_transparent>
@@ -54,10 +74,18 @@ pub struct GlossyTransparent {
 impl GlossyTransparent {
     /// From its element.
     pub fn build(node: &Node, resources: &mut dyn MaterialResources) -> Self {
-        Self {
-            medium: resources.medium(node, INTERNAL_MEDIUM_NAME.name),
-            facets: Microfacets::of_exponent(Real::from_f64(node.real("exponent"))),
+        let medium = resources.medium(node, INTERNAL_MEDIUM_NAME.name);
+        if is_rough(node) {
+            node.disregard_field("exponent");
         }
+        let facets = match node.opt_real(ROUGHNESS.name) {
+            Some(width) => Microfacets::of_width(Real::from_f64(width.value)),
+            // The stand-in is for scenes that lack both, which has been reported.
+            None => {
+                Microfacets::of_exponent(Real::from_f64(node.opt_real("exponent").map_or(1.0, |n| n.value)))
+            }
+        };
+        Self { medium, facets }
     }
 
     /// The model at a point.

@@ -5,6 +5,7 @@ pub mod diffuse;
 pub mod diffuse_transmitter;
 pub mod fields;
 pub mod glossy_transparent;
+pub mod later;
 pub mod null_material;
 pub mod oren_nayar;
 pub mod phong;
@@ -109,8 +110,7 @@ pub struct Surface<K> {
 impl<K: SurfaceKind> Surface<K> {
     /// From the element of the kind, which has been built from it.
     fn new(kind: K, node: &Node, resources: &mut dyn MaterialResources) -> Self {
-        let may_have = node.block.fields.iter().any(|field| field.name == BUMP_MAP.name);
-        let map = if may_have { node.node(BUMP_MAP.name) } else { None };
+        let map = if node.block.declares(BUMP_MAP.name) { node.node(BUMP_MAP.name) } else { None };
         Self { kind, bump: map.map(|map| resources.texture(map)) }
     }
 
@@ -131,6 +131,18 @@ macro_rules! registry {
     ($($name:ident => $material:ident / $leaf:ident,)*) => {
         /// The kinds of material.
         pub static KINDS: &[&Block] = &[$(&$name::BLOCK,)* &blend::BLOCK, &null_material::BLOCK];
+
+        /// Those, and kinds of later format versions for which something stands in.
+        static KINDS_AND_LATER: &[&Block] = &[
+            $(&$name::BLOCK,)*
+            &blend::BLOCK,
+            &null_material::BLOCK,
+            &later::COATING,
+            &later::DOUBLE_SIDED_THIN,
+            &later::FAST_SSS,
+            &later::SUM,
+            &later::SUNSKY,
+        ];
 
         /// A material as the scene holds it.
         #[derive(Clone, Debug)]
@@ -155,6 +167,14 @@ macro_rules! registry {
                     let kind = $name::$material::build(node, resources);
                     return Self::$material(Surface::new(kind, node, resources));
                 })*
+                if std::ptr::eq(node.block, &raw const later::FAST_SSS) {
+                    let kind = phong::Phong::build(node, resources);
+                    return Self::Phong(Surface::new(kind, node, resources));
+                }
+                if std::ptr::eq(node.block, &raw const later::SUNSKY) {
+                    node.disregard();
+                    return Self::black();
+                }
                 if std::ptr::eq(node.block, &raw const blend::BLOCK) {
                     return Self::Blend(blend::Blend::build(node, resources));
                 }
@@ -298,6 +318,11 @@ registry! {
 }
 
 impl Material {
+    /// A grey diffuse surface, which stands in for kinds that are not rendered.
+    pub fn grey() -> Self {
+        Self::Diffuse(Surface { kind: diffuse::Diffuse::grey(), bump: None })
+    }
+
     /// A surface that scatters nothing.
     pub fn black() -> Self {
         Self::Diffuse(Surface { kind: diffuse::Diffuse::black(), bump: None })
@@ -310,31 +335,38 @@ impl Material {
     }
 }
 
+/// The kinds that a material may be of.
+pub const MATERIAL_KIND: Alternatives = Alternatives {
+    later: &[Later::new("fabric", "4.0"), Later::new("external", "3.0")],
+    stand_in: "a grey diffuse surface",
+    ..Alternatives::new("kind of material", KINDS_AND_LATER)
+};
+
+/// What later versions put beside the kind.
+pub const MATERIAL_LATER: &[Later] = &[
+    Later::new("metadata", "3.0"),
+    Later::new("backface_emit", "4.0").unless("false"),
+    Later::new("emission_sampling_factor", "4.0").unless("1"),
+    Later::new("invisible_to_camera", "4.0").unless("false"),
+    Later::new("shadow_catcher", "4.0").unless("false"),
+];
+
 /// The declaration of `material`.
 pub static MATERIAL: Block = Block::new(
     "material",
     "Defines a material: a name and one kind. Where it stands in the scene does not matter.",
-    &[Field::new("name", Kind::Name, Presence::Required, "Name by which meshes and blends refer to it.")],
-)
-.with_alternatives(Alternatives {
-    later: &[
-        Later::new("coating", "3.0"),
-        Later::new("double_sided_thin", "3.0"),
-        Later::new("fast_sss", "4.0"),
-        Later::new("fabric", "4.0"),
-        Later::new("sum", "4.0"),
-        Later::new("external", "3.0"),
+    &[
+        Field::new("name", Kind::Name, Presence::Required, "Name by which meshes and blends refer to it."),
+        Field::new(
+            "uid",
+            Kind::Text,
+            Presence::Optional,
+            "A number by which later versions refer to it (`material_uid`, `a_uid`).",
+        ),
     ],
-    ..Alternatives::new("kind of material", KINDS)
-})
-.with_later(&[
-    Later::new("uid", "3.0"),
-    Later::new("metadata", "3.0"),
-    Later::new("backface_emit", "4.0"),
-    Later::new("emission_sampling_factor", "4.0"),
-    Later::new("invisible_to_camera", "4.0"),
-    Later::new("shadow_catcher", "4.0"),
-])
+)
+.with_alternatives(MATERIAL_KIND)
+.with_later(MATERIAL_LATER)
 .with_example(
     "<material>
     <name>white</name>

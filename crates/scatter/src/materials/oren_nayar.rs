@@ -19,12 +19,15 @@
 //!
 //! These figures are computed anew by `cargo test -p indigo-scatter --test cavities`.
 
-use super::fields::{ALBEDO_SPECTRUM, ALBEDO_TEXTURE, BUMP_MAP, LATER};
+use super::fields::{
+    ALBEDO, ALBEDO_SPECTRUM, ALBEDO_TEXTURE, BASE_EMISSION, BASE_EMISSION_PARAMETER, BUMP, BUMP_MAP,
+    EMISSION, EMISSION_PARAMETER, EMISSION_TEXTURE, LATER, LAYER,
+};
 use super::{MaterialContext, MaterialResources, SurfaceKind};
 use crate::directional_albedo::{AlbedoRow, integral};
 use crate::reflectance::Reflectance;
 use crate::scatter::{Crossing, LocalSample, Scatter};
-use indigo_decl::{Block, Field, Group, Kind, Node, Presence, Range};
+use indigo_decl::{Block, Field, Group, Kind, Node, Parameter, Presence, Range, StandIn};
 use indigo_math::elementary::{acos, sin_cos_turns};
 use indigo_math::warp::{INV_PI, cosine_hemisphere, cosine_hemisphere_pdf, uniform_hemisphere};
 use indigo_math::{Float, Real, Vec2, Vec3};
@@ -49,9 +52,26 @@ pub static BLOCK: Block = Block::new(
         ALBEDO_SPECTRUM,
         ALBEDO_TEXTURE,
         BUMP_MAP,
+        BASE_EMISSION,
+        EMISSION,
+        EMISSION_TEXTURE,
+        LAYER,
     ],
 )
-.with_needs(&[Group::any(&["albedo_spectrum", "albedo_texture"])])
+.with_needs(&[Group::any(&[
+    "albedo_spectrum",
+    "albedo_texture",
+    "base_emission",
+    "emission",
+    "emission_texture",
+])])
+.with_parameters(&[
+    BASE_EMISSION_PARAMETER,
+    EMISSION_PARAMETER,
+    ALBEDO,
+    BUMP,
+    Parameter { name: "sigma", since: "2.0", constant: "sigma", texture: "", stand_in: StandIn::Text("0.3") },
+])
 .with_later(LATER)
 .with_example(
     "<oren_nayar>

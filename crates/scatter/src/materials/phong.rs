@@ -17,7 +17,10 @@
 //!
 //! `docs/theory/gloss.md` has a table of E.
 
-use super::fields::{ALBEDO_TEXTURE, BUMP_MAP, COLOUR_DEPRECATED, LATER};
+use super::fields::{
+    ALBEDO_TEXTURE, BASE_EMISSION, BASE_EMISSION_PARAMETER, BUMP, BUMP_MAP, COLOUR_DEPRECATED, EMISSION,
+    EMISSION_PARAMETER, EMISSION_TEXTURE, LATER, LAYER, ROUGHNESS, ROUGHNESS_PARAMETER, is_rough,
+};
 use super::{MaterialContext, MaterialResources, SurfaceKind};
 use crate::directional_albedo::{AlbedoRow, LaneRows};
 use crate::fresnel::{conductor, dielectric, diffuse_average, schlick};
@@ -26,14 +29,94 @@ use crate::media::Medium;
 use crate::microfacet::Microfacets;
 use crate::reflectance::Reflectance;
 use crate::scatter::{Crossing, LocalSample, Scatter};
-use indigo_decl::{Block, Field, Group, Kind as FieldKind, Node, Presence, Range, codes};
+use indigo_decl::{Block, Field, Group, Kind as FieldKind, Node, Parameter, Presence, Range, StandIn, codes};
 use indigo_diag::{Diagnostic, Sink};
 use indigo_math::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
 use indigo_math::{Float, Real, Vec2, Vec3};
 use indigo_spectrum::declare::SPECTRUM;
-use indigo_spectrum::{LanePdf, SampledSpectrum, Spectrum, read};
+use indigo_spectrum::{LanePdf, SampledSpectrum, Spectrum};
 use indigo_texture::TextureId;
 use indigo_texture::declare::TEXTURE;
+
+/// The fields, which `fast_sss` shares.
+pub(super) const FIELDS: &[Field] = &[
+    Field::new(
+        "diffuse_albedo_spectrum",
+        FieldKind::OneOf(&SPECTRUM),
+        Presence::Optional,
+        "The reflectance of the diffuse ground, at least 0; black where it is missing. Values above 1 are \
+         silently clamped. Has no effect on a metal.",
+    ),
+    Field::new(
+        "diffuse",
+        FieldKind::Vec3,
+        Presence::Optional,
+        "The reflectance of the ground as red, green and blue as picked on a screen: each is raised to \
+         the power 2.2 and then clamped to [0, 0.9]. Has no effect beside `diffuse_albedo_spectrum`.",
+    )
+    .deprecated(COLOUR_DEPRECATED),
+    Field::new(
+        "ior",
+        FieldKind::Real,
+        Presence::Optional,
+        "Index of refraction of the coat. Needed unless the surface is a metal.",
+    )
+    .range(Range::AtLeast(1.0)),
+    Field::new(
+        "exponent",
+        FieldKind::Real,
+        Presence::Optional,
+        "Exponent of the Phong lobe of the normals of small facets, from about 1 (broad highlights) to \
+         10000 and more (nearly a mirror). Needed unless there is an `exponent_map`.",
+    )
+    .range(Range::Above(0.0)),
+    Field::new(
+        "nk_data",
+        FieldKind::Path,
+        Presence::Optional,
+        "A file of measured complex indices of refraction, such as `nkdata/au.nk`, beside the scene or in \
+         the resource directory. Empty means none.",
+    ),
+    Field::new(
+        "specular_reflectivity_spectrum",
+        FieldKind::OneOf(&SPECTRUM),
+        Presence::Optional,
+        "Reflectivity of a metal at normal incidence; towards grazing angles it rises to 1 by Schlick's \
+         law. At least 0; values above 1 are silently clamped.",
+    ),
+    ALBEDO_TEXTURE,
+    BUMP_MAP,
+    Field::new(
+        "exponent_map",
+        FieldKind::Block(&TEXTURE),
+        Presence::Optional,
+        "An image map that takes the place of the exponent.",
+    ),
+    ROUGHNESS,
+    Field::new(
+        "roughness_map",
+        FieldKind::Block(&TEXTURE),
+        Presence::Optional,
+        "An image map that takes the place of the roughness.",
+    ),
+    Field::new(
+        "specular_reflectivity_texture",
+        FieldKind::Block(&TEXTURE),
+        Presence::Optional,
+        "An image map that takes the place of `specular_reflectivity_spectrum`.",
+    ),
+    Field::new(
+        "fresnel_scale",
+        FieldKind::Real,
+        Presence::Default("1"),
+        "Factor on the reflectance of the coat or of the metal. Values above 1 are silently clamped.",
+    )
+    .range(Range::AtLeast(0.0)),
+    BASE_EMISSION,
+    EMISSION,
+    EMISSION_TEXTURE,
+    LAYER,
+];
 
 /// The declaration of `phong`.
 pub static BLOCK: Block = Block::new(
@@ -43,65 +126,13 @@ pub static BLOCK: Block = Block::new(
      `specular_reflectivity_spectrum` a metal of the given reflectivity. Where several are given, \
      `nk_data` counts before `specular_reflectivity_spectrum`, and that before `ior` and the diffuse ground. \
      Under water, or in another medium, coats and measured metals reflect by the quotient of both indices.",
-    &[
-        Field::new(
-            "diffuse_albedo_spectrum",
-            FieldKind::OneOf(&SPECTRUM),
-            Presence::Optional,
-            "The reflectance of the diffuse ground, at least 0; black where it is missing. Values above 1 are \
-             silently clamped. Has no effect on a metal.",
-        ),
-        Field::new(
-            "diffuse",
-            FieldKind::Vec3,
-            Presence::Optional,
-            "The reflectance of the ground as red, green and blue as picked on a screen: each is raised to \
-             the power 2.2 and then clamped to [0, 0.9]. Has no effect beside `diffuse_albedo_spectrum`.",
-        )
-        .deprecated(COLOUR_DEPRECATED),
-        Field::new(
-            "ior",
-            FieldKind::Real,
-            Presence::Optional,
-            "Index of refraction of the coat. Needed unless the surface is a metal.",
-        )
-        .range(Range::AtLeast(1.0)),
-        Field::new(
-            "exponent",
-            FieldKind::Real,
-            Presence::Optional,
-            "Exponent of the Phong lobe of the normals of small facets, from about 1 (broad highlights) to \
-             10000 and more (nearly a mirror). Needed unless there is an `exponent_map`.",
-        )
-        .range(Range::Above(0.0)),
-        Field::new(
-            "nk_data",
-            FieldKind::Path,
-            Presence::Optional,
-            "A file of measured complex indices of refraction, such as `nkdata/au.nk`, beside the scene or in \
-             the resource directory. Empty means none.",
-        ),
-        Field::new(
-            "specular_reflectivity_spectrum",
-            FieldKind::OneOf(&SPECTRUM),
-            Presence::Optional,
-            "Reflectivity of a metal at normal incidence; towards grazing angles it rises to 1 by Schlick's \
-             law. At least 0; values above 1 are silently clamped.",
-        ),
-        ALBEDO_TEXTURE,
-        BUMP_MAP,
-        Field::new(
-            "exponent_map",
-            FieldKind::Block(&TEXTURE),
-            Presence::Optional,
-            "An image map that takes the place of the exponent.",
-        ),
-    ],
+    FIELDS,
 )
 .with_needs(&[
-    Group::any(&["ior", "nk_data", "specular_reflectivity_spectrum"]),
-    Group::any(&["exponent", "exponent_map"]),
+    Group::any(&["ior", "nk_data", "specular_reflectivity_spectrum", "specular_reflectivity_texture"]),
+    Group::any(&["exponent", "exponent_map", "roughness", "roughness_map"]),
 ])
+.with_parameters(PARAMETERS)
 .with_later(LATER)
 .with_example(
     "<phong>
@@ -112,12 +143,50 @@ pub static BLOCK: Block = Block::new(
 </phong>",
 );
 
+/// The parameters as later versions write them.
+pub(super) const PARAMETERS: &[Parameter] = &[
+    BASE_EMISSION_PARAMETER,
+    EMISSION_PARAMETER,
+    Parameter {
+        name: "diffuse_albedo",
+        since: "1.1",
+        constant: "diffuse_albedo_spectrum",
+        texture: "albedo_texture",
+        stand_in: StandIn::Uniform("0.5"),
+    },
+    Parameter {
+        name: "specular_reflectivity",
+        since: "1.1",
+        constant: "specular_reflectivity_spectrum",
+        texture: "specular_reflectivity_texture",
+        stand_in: StandIn::Uniform("0.5"),
+    },
+    Parameter {
+        name: "exponent",
+        since: "1.1",
+        constant: "exponent",
+        texture: "exponent_map",
+        stand_in: StandIn::Text("1000"),
+    },
+    ROUGHNESS_PARAMETER,
+    Parameter {
+        name: "fresnel_scale",
+        since: "3.0",
+        constant: "fresnel_scale",
+        texture: "",
+        stand_in: StandIn::Text("1"),
+    },
+    BUMP,
+];
+
 /// A glossy surface.
 #[derive(Clone, Debug)]
 pub struct Phong {
     kind: Kind,
     gloss: Gloss,
-    /// Albedo of the facets, of the coat or of white facets: a row, or one for each width of a map of exponents.
+    /// What multiplies the reflectance, at most 1.
+    fresnel_scale: Real,
+    /// Albedo of the facets, of the coat or of white facets: a row, or one for each width of a map.
     rows: ByIndex<Box<[AlbedoRow]>>,
 }
 
@@ -129,7 +198,7 @@ enum Kind {
     /// A metal of a complex index n + ik, with its average reflectance.
     Measured { n: Spectrum, k: Spectrum, average: ByIndex<Spectrum> },
     /// A metal of a reflectance along its normal, whatever lies outside.
-    Schlick { r0: Spectrum },
+    Schlick { r0: Reflectance },
 }
 
 /// How smooth the surface is.
@@ -137,10 +206,15 @@ enum Kind {
 enum Gloss {
     Uniform(Microfacets),
     /// By a map of exponents.
-    Map(TextureId),
+    Exponents(TextureId),
+    /// By a map of widths.
+    Widths(TextureId),
 }
 
-/// Rows for exponent maps, at equal steps of the fourth root of the width from 0 to 1: between two of them albedos are
+/// The fields of a metal's reflectivity: its map and its spectrum.
+const METAL: [&str; 2] = ["specular_reflectivity_texture", "specular_reflectivity_spectrum"];
+
+/// Rows for maps of exponents or widths, at equal steps of the fourth root of the width from 0 to 1: between two of them albedos are
 /// linear to 3e-4 at exponents up to 10,000.
 const MAP_ROWS: usize = 97;
 
@@ -152,19 +226,20 @@ impl Phong {
         let measured = node.opt_text("nk_data").is_some_and(|path| !path.value.is_empty());
         let kind = if measured {
             disregard(&coat);
-            disregard(&["specular_reflectivity_spectrum"]);
+            disregard(&METAL);
             let [n, k] = resources.complex_index(node, "nk_data");
             Kind::Measured { average: ByIndex::new(&[1.0], |_| average_of_metal(&n, &k, 1.0)), n, k }
-        } else if let Some(spectrum) = node.node("specular_reflectivity_spectrum") {
+        } else if METAL.iter().any(|field| node.has(field)) {
             disregard(&coat);
-            Kind::Schlick { r0: read::reflectance(spectrum, resources.sink()) }
+            Kind::Schlick { r0: Reflectance::build(node, METAL, None, resources) }
         } else {
             let ground = ["albedo_texture", "diffuse_albedo_spectrum"];
             let ground = Reflectance::build(node, ground, Some("diffuse"), resources);
             Kind::Coat { eta: Real::from_f64(index_of_coat(node, resources.sink())), ground }
         };
         let gloss = Gloss::build(node, resources);
-        Self { rows: kind.rows(gloss, &[1.0]), kind, gloss }
+        let fresnel_scale = Real::from_f64(node.real("fresnel_scale").min(1.0));
+        Self { rows: kind.rows(gloss, fresnel_scale, &[1.0]), kind, gloss, fresnel_scale }
     }
 
     /// The model at a point.
@@ -172,12 +247,16 @@ impl Phong {
     pub fn leaf(&self, context: &MaterialContext, uv: impl Fn(u32) -> Vec2) -> PhongLeaf {
         let facets = match self.gloss {
             Gloss::Uniform(facets) => facets,
-            Gloss::Map(id) => {
+            Gloss::Exponents(id) => {
                 let map = &context.textures[id as usize];
                 Microfacets::of_exponent(map.scalar(uv(map.uv_set)))
             }
+            Gloss::Widths(id) => {
+                let map = &context.textures[id as usize];
+                Microfacets::of_width(map.scalar(uv(map.uv_set)))
+            }
         };
-        let (lambda, outside) = (context.lambda, context.interface.above);
+        let (lambda, outside, scale) = (context.lambda, context.interface.above, self.fresnel_scale);
         let rows = self.rows_at(facets, outside);
         let (fresnel, base) = match &self.kind {
             Kind::Coat { eta, ground } => {
@@ -187,15 +266,16 @@ impl Phong {
                 let (low, high, mix) = average.around(outside);
                 let (low, high) = (low.eval(lambda), high.eval(lambda));
                 let fresnel = Fresnel::Conductor { n: n.eval(lambda) / outside, k: k.eval(lambda) / outside };
-                (fresnel, between(low + (high - low) * mix, &rows))
+                (fresnel, between((low + (high - low) * mix) * scale, &rows))
             }
             Kind::Schlick { r0 } => {
-                let r0 = r0.eval(lambda);
+                let r0 = r0.eval(context, uv);
                 // 2 ∫ (1 - μ)⁵ μ dμ = 1/21.
-                (Fresnel::Schlick { r0 }, between(r0 + (SampledSpectrum::ONE - r0) / 21.0, &rows))
+                let average = r0 + (SampledSpectrum::ONE - r0) / 21.0;
+                (Fresnel::Schlick { r0 }, between(average * scale, &rows))
             }
         };
-        PhongLeaf { facets, fresnel, base, rows }
+        PhongLeaf { facets, fresnel, fresnel_scale: scale, base, rows }
     }
 
     /// The rows of facets for the indices of what lies outside.
@@ -222,38 +302,48 @@ impl SurfaceKind for Phong {
         }
         // Those of white facets are the same everywhere.
         if let Kind::Coat { .. } = self.kind {
-            self.rows = self.kind.rows(self.gloss, &indices);
+            self.rows = self.kind.rows(self.gloss, self.fresnel_scale, &indices);
         }
     }
 }
 
 impl Gloss {
     fn build(node: &Node, resources: &mut dyn MaterialResources) -> Self {
+        // What a later version brought counts before what it had from an earlier one.
+        if is_rough(node) {
+            node.disregard_fields(&["exponent", "exponent_map"]);
+        }
+        if let Some(map) = node.node("roughness_map") {
+            return Self::Widths(resources.texture(map));
+        }
+        if let Some(width) = node.opt_real("roughness") {
+            return Self::Uniform(Microfacets::of_width(Real::from_f64(width.value)));
+        }
         if let Some(map) = node.node("exponent_map") {
             node.disregard_field("exponent");
-            return Self::Map(resources.texture(map));
+            return Self::Exponents(resources.texture(map));
         }
-        // The stand-in is for scenes that lack both, which has been reported.
-        let exponent = node.opt_real("exponent").map_or(1.0, |n| n.value);
-        Self::Uniform(Microfacets::of_exponent(Real::from_f64(exponent)))
+        // The stand-in is for a phong that lacks both, which has been reported, and for a `fast_sss` that says nothing.
+        let exponent = node.opt_real("exponent").map(|n| Microfacets::of_exponent(Real::from_f64(n.value)));
+        Self::Uniform(exponent.unwrap_or_else(|| Microfacets::of_width(0.3)))
     }
 }
 
 impl Kind {
     /// The rows of the facets' albedo for some indices outside.
-    fn rows(&self, gloss: Gloss, outside: &[Real]) -> ByIndex<Box<[AlbedoRow]>> {
+    fn rows(&self, gloss: Gloss, fresnel_scale: Real, outside: &[Real]) -> ByIndex<Box<[AlbedoRow]>> {
         let width = |i: usize| (i as Real / (MAP_ROWS - 1) as Real).powi(4);
         ByIndex::new(outside, |outside| match gloss {
-            Gloss::Uniform(facets) => vec![self.row(facets, outside)].into_boxed_slice(),
-            Gloss::Map(_) => {
-                (0..MAP_ROWS).map(|i| self.row(Microfacets::of_width(width(i)), outside)).collect()
-            }
+            Gloss::Uniform(facets) => vec![self.row(facets, fresnel_scale, outside)].into_boxed_slice(),
+            Gloss::Exponents(_) | Gloss::Widths(_) => (0..MAP_ROWS)
+                .map(|i| self.row(Microfacets::of_width(width(i)), fresnel_scale, outside))
+                .collect(),
         })
     }
 
-    fn row(&self, facets: Microfacets, outside: Real) -> AlbedoRow {
+    fn row(&self, facets: Microfacets, fresnel_scale: Real, outside: Real) -> AlbedoRow {
         AlbedoRow::of_facets(facets, |cos| match self {
-            Self::Coat { eta, .. } => dielectric(cos, eta / outside).reflectance,
+            Self::Coat { eta, .. } => dielectric(cos, eta / outside).reflectance * fresnel_scale,
             // Of white facets: what metals lack is given back in white, and coloured by the way.
             _ => 1.0,
         })
@@ -319,15 +409,6 @@ impl Fresnel {
             Self::Schlick { r0 } => r0.map(|r0| schlick(cos, r0)),
         }
     }
-
-    /// What colours the row of the facets' albedo, roughly; the row of a coat has it in.
-    #[inline]
-    fn tint(&self, cos: Real) -> SampledSpectrum {
-        match self {
-            Self::Coat { .. } => SampledSpectrum::ONE,
-            _ => self.eval(cos),
-        }
-    }
 }
 
 /// Facets, and what they do not reflect at once: in a coat it reaches the ground, on a metal other facets.
@@ -337,6 +418,8 @@ impl Fresnel {
 pub struct PhongLeaf {
     facets: Microfacets,
     fresnel: Fresnel,
+    /// What multiplies the reflectance.
+    fresnel_scale: Real,
     /// The share of the light not reflected at once that is scattered in the end.
     base: SampledSpectrum,
     /// Albedo of the facets: of the coat, or of white facets.
@@ -344,11 +427,20 @@ pub struct PhongLeaf {
 }
 
 impl PhongLeaf {
+    /// What colours the row of the facets' albedo, roughly; the row of a coat has it in.
+    #[inline]
+    fn tint(&self, cos: Real) -> SampledSpectrum {
+        match self.fresnel {
+            Fresnel::Coat { .. } => SampledSpectrum::ONE,
+            _ => self.fresnel.eval(cos) * self.fresnel_scale,
+        }
+    }
+
     /// The share of draws that the facets get.
     #[inline]
     fn gloss_share(&self, wo: Vec3) -> LanePdf {
         let albedo = self.rows.at(wo.z);
-        let tint = self.fresnel.tint(wo.z);
+        let tint = self.tint(wo.z);
         LanePdf::from_fn(|lane| {
             let (gloss, base) = (tint[lane] * albedo[lane], self.base[lane] * (1.0 - albedo[lane]));
             if base > 0.0 { gloss / (gloss + base) } else { 1.0 }
@@ -363,7 +455,8 @@ impl Scatter for PhongLeaf {
             return SampledSpectrum::ZERO;
         };
         let gloss = self.facets.density(h) * self.facets.shared_over_cosines(wo, wi);
-        self.fresnel.eval(wo.dot(h)) * gloss + self.base * self.rows.complement(wo.z, wi.z)
+        self.fresnel.eval(wo.dot(h)) * (self.fresnel_scale * gloss)
+            + self.base * self.rows.complement(wo.z, wi.z)
     }
 
     #[inline]

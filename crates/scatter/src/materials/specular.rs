@@ -4,7 +4,10 @@
 //! of its own at each. A refracted ray stands for the hero and for the lanes that have its index: the others
 //! would have gone another way, so their density is 0 (Wilkie et al. 2014, section 4).
 
-use super::fields::{BUMP_MAP, INTERNAL_MEDIUM_NAME, LATER};
+use super::fields::{
+    BASE_EMISSION, BASE_EMISSION_PARAMETER, BUMP, BUMP_MAP, EMISSION, EMISSION_PARAMETER, EMISSION_TEXTURE,
+    INTERNAL_MEDIUM_NAME, LATER, LAYER,
+};
 use super::{MaterialContext, MaterialResources, SurfaceKind};
 use crate::fresnel::dielectric;
 use crate::media::MediumId;
@@ -27,8 +30,13 @@ pub static BLOCK: Block = Block::new(
             "Whether light goes through. If not, only the reflected light is there.",
         ),
         BUMP_MAP,
+        BASE_EMISSION,
+        EMISSION,
+        EMISSION_TEXTURE,
+        LAYER,
     ],
 )
+.with_parameters(&[BASE_EMISSION_PARAMETER, EMISSION_PARAMETER, BUMP])
 .with_later(LATER)
 .with_example(
     "<specular>

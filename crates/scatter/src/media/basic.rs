@@ -2,7 +2,7 @@
 
 use super::{Cauchy, Medium};
 use crate::phase::{PHASE_FUNCTION, PhaseFunction};
-use indigo_decl::{Block, Field, Kind, Later, Node, Presence, Range};
+use indigo_decl::{Block, Field, Kind, Later, Node, Parameter, Presence, Range, StandIn};
 use indigo_diag::Sink;
 use indigo_spectrum::declare::SPECTRUM;
 use indigo_spectrum::read;
@@ -45,7 +45,8 @@ pub static BLOCK: Block = Block::new(
         ),
     ],
 )
-.with_later(&[Later::new("absorption_coefficient", "1.1"), Later::new("fast_sss", "3.0")])
+.with_parameters(&[coefficient("absorption_coefficient", "absorption_coefficient_spectrum")])
+.with_later(&[Later::new("fast_sss", "3.0").unless("false")])
 .with_example(
     "<basic>
     <ior>1.5</ior>
@@ -76,7 +77,7 @@ pub static SUBSURFACE_SCATTERING: Block = Block::new(
         ),
     ],
 )
-.with_later(&[Later::new("scattering_coefficient", "1.1")])
+.with_parameters(&[coefficient("scattering_coefficient", "scattering_coefficient_spectrum")])
 .with_example(
     "<subsurface_scattering>
     <scattering_coefficient_spectrum>
@@ -85,6 +86,11 @@ pub static SUBSURFACE_SCATTERING: Block = Block::new(
     <phase_function><uniform/></phase_function>
 </subsurface_scattering>",
 );
+
+/// A coefficient as later versions write it; of the same value everywhere, since maps of the inside are not rendered.
+const fn coefficient(name: &'static str, constant: &'static str) -> Parameter {
+    Parameter { name, since: "1.1", constant, texture: "", stand_in: StandIn::Uniform("0") }
+}
 
 /// From its element.
 pub fn build(node: &Node, sink: &mut Sink) -> Medium {

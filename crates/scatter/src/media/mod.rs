@@ -143,6 +143,14 @@ registry! {
     dermis,
 }
 
+/// The uid of a medium.
+const UID: Field = Field::new(
+    "uid",
+    Kind::Text,
+    Presence::Optional,
+    "A number by which later versions refer to it (`internal_medium_uid`).",
+);
+
 /// The declaration of `medium`.
 pub static MEDIUM: Block = Block::new(
     "medium",
@@ -150,6 +158,7 @@ pub static MEDIUM: Block = Block::new(
      The children of `basic` may also stand directly in `medium`.",
     &[
         Field::new("name", Kind::Name, Presence::Required, "Name by which materials refer to it."),
+        UID,
         Field::new(
             "precedence",
             Kind::Int,
@@ -163,10 +172,10 @@ pub static MEDIUM: Block = Block::new(
 .with_alternatives(Alternatives {
     implied: Some(&basic::BLOCK),
     later: &[Later::new("atmosphere", "3.0"), Later::new("fast_sss", "3.0")],
+    stand_in: "air",
     ..Alternatives::new("kind of medium", KINDS)
 })
 .with_later(&[
-    Later::new("uid", "3.0"),
     Later::new("metadata", "3.0"),
     Later::new("step_size", "3.0"),
     Later::new("max_extinction_coeff", "3.0"),

@@ -29,6 +29,8 @@ const EXAMPLES: &[&str] = &[
     "<phong><ior>1.5</ior><exponent>1</exponent><diffuse_albedo_spectrum><uniform><value>1</value></uniform></diffuse_albedo_spectrum></phong>",
     "<phong><ior>2.5</ior><exponent>100</exponent><diffuse_albedo_spectrum><rgb><rgb>0.9 0.5 0.1</rgb></rgb></diffuse_albedo_spectrum></phong>",
     "<phong><ior>1.3</ior><exponent>30</exponent></phong>",
+    "<phong><ior>1.7</ior><roughness><constant>0.4</constant></roughness><fresnel_scale>0.6</fresnel_scale><diffuse_albedo_spectrum><uniform><value>0.9</value></uniform></diffuse_albedo_spectrum></phong>",
+    "<phong><specular_reflectivity_spectrum><uniform><value>0.9</value></uniform></specular_reflectivity_spectrum><roughness>0.5</roughness><fresnel_scale>0.5</fresnel_scale></phong>",
     "<phong><ior>1.5</ior><exponent>20000</exponent><diffuse_albedo_spectrum><uniform><value>1</value></uniform></diffuse_albedo_spectrum></phong>",
     "<phong><nk_data>gold.nk</nk_data><exponent>0.1</exponent></phong>",
     "<phong><nk_data>gold.nk</nk_data><exponent>60</exponent></phong>",

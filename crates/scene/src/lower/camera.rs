@@ -1,6 +1,7 @@
 //! The camera.
 
 use super::geometry::FARTHEST;
+use super::keyframes::Pose;
 use super::{Context, aperture};
 use crate::codes;
 use crate::scene::FilmSettings;
@@ -39,10 +40,12 @@ pub(super) fn parameters(
     let focus_distance = node.opt_real("focus_distance").map_or(f64::INFINITY, |v| v.value);
     // The settings' switch and the camera's own both take vignetting out.
     let vignetting = node.bool("vignetting") && settings.bool("vignetting");
+    // Its place, and what there is to say of keyframes, is the business of `position`.
+    let turn = Pose::of(node, &mut Sink::new()).rotation();
     let lens = ThinLensParameters {
         position: Vec3d::ZERO,
-        forwards: node.vec3("forwards").into(),
-        up: node.vec3("up").into(),
+        forwards: turn * Vec3d::from(node.vec3("forwards")),
+        up: turn * Vec3d::from(node.vec3("up")),
         aperture_radius: node.real("aperture_radius"),
         focus_distance,
         sensor_width,
@@ -68,9 +71,9 @@ pub(super) fn parameters(
 
 /// The camera's place in the world; the origin where that is wrong.
 pub(super) fn position(node: &Node, sink: &mut Sink) -> Vec3d {
-    let pos = node.vec3("pos");
-    if pos.iter().all(|x| x.abs() <= FARTHEST) {
-        return pos.into();
+    let pos = Pose::of(node, sink).pos;
+    if pos.to_array().iter().all(|x| x.abs() <= FARTHEST) {
+        return pos;
     }
     sink.push(
         Diagnostic::error(OUT_OF_RANGE, node.span_of("pos"), "the camera is too far away from the origin")

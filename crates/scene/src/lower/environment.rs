@@ -1,9 +1,10 @@
 //! Lights that are infinitely far away.
 
-use super::Context;
+use super::materials::MaterialTable;
+use super::{Context, background};
 use crate::codes;
 use indigo_decl::Node;
-use indigo_diag::Diagnostic;
+use indigo_diag::{Diagnostic, Span};
 use indigo_formats::image::{self, Image, Pixels};
 use indigo_formats::{FormatError, Position, float_map};
 use indigo_light::DistantLight;
@@ -17,9 +18,14 @@ use indigo_light::sky::space;
 use indigo_math::{Mat3, Vec3d};
 use indigo_spectrum::adaptation::rec709_of;
 use indigo_spectrum::read;
+use indigo_texture::Curve;
 
 /// All distant lights of a scene; their radiances add.
-pub(super) fn distant_lights(root: &Node, context: &mut Context) -> Vec<DistantLight> {
+pub(super) fn distant_lights(
+    root: &Node,
+    materials: &MaterialTable,
+    context: &mut Context,
+) -> Vec<DistantLight> {
     let mut lights = vec![];
     if let Some(spectrum) = root.node("background").and_then(|b| b.node("spectrum")) {
         lights.push(Background(read::emission(spectrum, context.sink)).into());
@@ -30,14 +36,22 @@ pub(super) fn distant_lights(root: &Node, context: &mut Context) -> Vec<DistantL
     if let Some(map) = root.node("env_map").and_then(Node::alternative) {
         lights.extend(env_map(map, context).map(DistantLight::from));
     }
+    if let Some(settings) = root.node("background_settings") {
+        lights.extend(background::lights(settings, materials, context));
+    }
     lights
 }
 
 /// The sun, and the sky unless it is black.
-fn skylight(node: &Node, context: &mut Context) -> Vec<DistantLight> {
+pub(super) fn skylight(node: &Node, context: &mut Context) -> Vec<DistantLight> {
     let sundir = Vec3d::from(node.vec3("sundir"));
     let turbidity = node.real("turbidity");
-    let is_preetham = node.text("model").value == "preetham";
+    let model = node.text("model").value;
+    let is_preetham = ["preetham", "original"].contains(&model.as_str());
+    if model == "captured-simulation" {
+        let message = "the sky of <captured-simulation> is not rendered: that of Hosek and Wilkie stands in";
+        context.sink.push(Diagnostic::warning(codes::STANDS_IN, node.span_of("model"), message));
+    }
     let is_outside = node.bool("extra_atmospheric");
     let Some(towards) = sundir.try_normalized().filter(|d| d.z > 0.0) else {
         context.sink.push(
@@ -92,34 +106,69 @@ fn env_map(node: &Node, context: &mut Context) -> Option<EnvMap> {
         }
         None => (Layout::LatLong, image::decode(&file.path, &file.bytes)),
     };
-    let texels = image.and_then(|image| Ok((image.width, image.height, linear_texels(image)?)));
-    let (width, height, mut texels) = match texels {
-        Ok(found) => found,
-        Err(error) => {
-            let place = match error.position {
-                Position::Text { .. } => format!("{}:{}", file.path, error.position),
-                Position::Byte(_) | Position::Unpacked(_) => file.path,
-            };
-            context.sink.push(
-                Diagnostic::error(codes::BAD_FILE, path.span, format!("{place}: bad environment map"))
-                    .expected(format!("expected {}, found {}", error.expected, error.found)),
-            );
-            return None;
+    Surroundings { layout, curve: None, gain }.env_map(image, &file.path, path.span, context)
+}
+
+/// How a picture is one of the surroundings.
+pub(super) struct Surroundings {
+    pub(super) layout: Layout,
+    /// What makes its values linear; without it they must be so.
+    pub(super) curve: Option<Curve>,
+    pub(super) gain: f64,
+}
+
+impl Surroundings {
+    /// The light of a picture file; `None` after reporting what is wrong with it.
+    pub(super) fn env_map(
+        &self,
+        image: Result<Image, FormatError>,
+        file: &str,
+        span: Span,
+        context: &mut Context,
+    ) -> Option<EnvMap> {
+        let image = image.map(|image| match self.curve {
+            Some(curve) => curved(&image, curve),
+            None => image,
+        });
+        let texels = image.and_then(|image| Ok((image.width, image.height, linear_texels(image)?)));
+        let (width, height, mut texels) = match texels {
+            Ok(found) => found,
+            Err(error) => {
+                let place = match error.position {
+                    Position::Text { .. } => format!("{file}:{}", error.position),
+                    Position::Byte(_) | Position::Unpacked(_) => file.to_owned(),
+                };
+                context.sink.push(
+                    Diagnostic::error(codes::BAD_FILE, span, format!("{place}: bad environment map"))
+                        .expected(format!("expected {}, found {}", error.expected, error.found)),
+                );
+                return None;
+            }
+        };
+        let bad = scale(&mut texels, self.gain);
+        if bad > 0 {
+            let what = if bad == 1 { "1 texel is".to_owned() } else { format!("{bad} texels are") };
+            context.sink.push(Diagnostic::warning(
+                codes::BAD_TEXELS,
+                span,
+                format!(
+                    "{file}: {what} negative, too large or no number, and taken as the nearest that can be"
+                ),
+            ));
         }
-    };
-    let bad = scale(&mut texels, gain);
-    if bad > 0 {
-        let what = if bad == 1 { "1 texel is".to_owned() } else { format!("{bad} texels are") };
-        context.sink.push(Diagnostic::warning(
-            codes::BAD_TEXELS,
-            path.span,
-            format!(
-                "{}: {what} negative, too large or no number, and taken as the nearest that can be",
-                file.path
-            ),
-        ));
+        Some(EnvMap::new(self.layout, width as usize, height as usize, texels))
     }
-    Some(EnvMap::new(layout, width as usize, height as usize, texels))
+}
+
+/// A picture whose values a curve has made linear.
+fn curved(image: &Image, curve: Curve) -> Image {
+    let to_linear = |x: f64| curve.apply(x) as f32;
+    let values = match &image.pixels {
+        Pixels::U8(v) => v.iter().map(|&x| to_linear(f64::from(x) / 255.0)).collect(),
+        Pixels::U16(v) => v.iter().map(|&x| to_linear(f64::from(x) / 65535.0)).collect(),
+        Pixels::F32(v) => v.iter().map(|&x| to_linear(f64::from(x))).collect(),
+    };
+    Image { pixels: Pixels::F32(values), ..*image }
 }
 
 /// The texels of a picture in linear light, whose colours are those of Rec. 709: integers are not, and have not the range.

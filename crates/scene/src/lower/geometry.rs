@@ -1,8 +1,9 @@
 //! Placed objects: models, spheres and planes, with the materials of their slots.
 
 use super::Context;
+use super::emission::warn_of_darkness;
 use super::materials::{MaterialTable, UvSets};
-use super::meshes::MeshTable;
+use super::meshes::{Mesh, MeshTable, Part};
 use super::placement;
 use crate::codes;
 use crate::settings::Settings;
@@ -26,8 +27,50 @@ fn box_corners(transform: &Transform, reach: f64) -> impl Iterator<Item = Vec3d>
     })
 }
 
+/// An instance of a mesh.
+struct Placed {
+    mesh: u32,
+    transform: Transform,
+    /// Name of the mesh.
+    name: String,
+    /// Its materials, and what they are called.
+    slots: Vec<u32>,
+    materials: Vec<String>,
+    uv_names: Vec<(String, u32)>,
+}
+
+impl Placed {
+    /// The object of a mesh in its place.
+    fn object(&self, mesh: u32) -> Object {
+        Object::Mesh { mesh, transform: self.transform }
+    }
+}
+
+/// Names of the materials of a placed mesh and where they are named: those of the model itself, by their order, before those
+/// of the mesh.
+fn slot_names(node: &Node, mesh: &Mesh, sink: &mut Sink) -> Vec<(String, Span)> {
+    let mut slots = mesh.slots.clone();
+    // Mesh lights have no such list.
+    let may_list = node.block.declares("materials");
+    let Some(list) = (if may_list { node.node("materials") } else { None }) else { return slots };
+    let own: Vec<(String, Span)> =
+        list.texts("material_name").map(|name| (name.value.to_owned(), name.span)).collect();
+    if own.len() != slots.len() {
+        let (has, lists) = (slots.len(), own.len());
+        sink.push(Diagnostic::warning(
+            codes::MATERIAL_COUNT,
+            list.span,
+            format!("the mesh has {has} materials, and <materials> lists {lists}"),
+        ));
+    }
+    for (slot, own) in slots.iter_mut().zip(own) {
+        *slot = own;
+    }
+    slots
+}
+
 /// All objects in render space.
-pub(super) struct Geometry {
+pub(super) struct Geometry<'a> {
     /// The camera's position: the origin of render space.
     origin: Vec3d,
     objects: Vec<Object>,
@@ -36,11 +79,34 @@ pub(super) struct Geometry {
     slots: Vec<u32>,
     /// For each object the light that it is.
     lights: Vec<Option<u32>>,
+    /// Parts of models whose materials emit.
+    emitting: Vec<EmittingPart<'a>>,
 }
 
-impl Geometry {
+/// A part of a model whose material emits.
+pub(super) struct EmittingPart<'a> {
+    /// Its number among the objects.
+    pub(super) object: u32,
+    /// Its mesh.
+    pub(super) mesh: u32,
+    pub(super) model: &'a Node,
+    /// Name of the material.
+    pub(super) material: String,
+    /// Names of the mesh's uv sets.
+    pub(super) uv_names: Vec<(String, u32)>,
+}
+
+impl<'a> Geometry<'a> {
     pub(super) fn new(origin: Vec3d) -> Self {
-        Self { origin, objects: vec![], names: vec![], first_slot: vec![], slots: vec![], lights: vec![] }
+        Self {
+            origin,
+            objects: vec![],
+            names: vec![],
+            first_slot: vec![],
+            slots: vec![],
+            lights: vec![],
+            emitting: vec![],
+        }
     }
 
     /// Adds an object given in the world, and returns its number.
@@ -108,14 +174,15 @@ impl Geometry {
 
     pub(super) fn add_objects(
         &mut self,
-        root: &Node,
+        root: &'a Node,
         settings: &Settings,
         meshes: &mut MeshTable,
         materials: &mut MaterialTable,
         context: &mut Context,
     ) {
         for model in root.nodes("model") {
-            self.add_instance(model, None, meshes, materials, context);
+            model.disregard_fields(&["name", "uid"]);
+            self.add_model(model, meshes, materials, context);
         }
         for sphere in root.nodes("sphere") {
             let object =
@@ -175,33 +242,105 @@ impl Geometry {
         self.refuse_far(&object, 0.0, node.span, context.sink);
         let name = node.text("material_name");
         let material = materials.get(&name.value, name.span, UvSets::Natural, context);
+        if materials.emission(&name.value, context.sink).is_some() {
+            warn_of_darkness(&format!("a {}", node.block.name), name.span, context);
+        }
         self.add(object, node.block.name, [material], None);
     }
 
-    /// Adds an instance of a mesh; the number of the object and of its mesh, or `None` after
-    /// reporting what is wrong.
-    pub(super) fn add_instance(
+    /// Adds a model; the parts of it whose materials emit are objects of their own.
+    fn add_model(
+        &mut self,
+        node: &'a Node,
+        meshes: &mut MeshTable,
+        materials: &mut MaterialTable,
+        context: &mut Context,
+    ) -> Option<()> {
+        let placed = self.place(node, false, meshes, materials, context)?;
+        let count = placed.slots.len() as u32;
+        let emits =
+            |slot: &u32| materials.emission(&placed.materials[*slot as usize], context.sink).is_some();
+        let lit: Vec<u32> = (0..count).filter(emits).collect();
+        for &slot in &lit {
+            // A mesh of one material is its own part.
+            let mesh =
+                if count == 1 { Some(placed.mesh) } else { meshes.part(placed.mesh, Part::Slot(slot)) };
+            let Some(mesh) = mesh else { continue };
+            let material = placed.slots[slot as usize];
+            let object = self.add(placed.object(mesh), &placed.name, [material], None);
+            self.emitting.push(EmittingPart {
+                object,
+                mesh,
+                model: node,
+                material: placed.materials[slot as usize].clone(),
+                uv_names: placed.uv_names.clone(),
+            });
+        }
+        let rest = match lit.len() as u32 {
+            0 => Some(placed.mesh),
+            n if n == count => None,
+            _ => meshes.part(placed.mesh, Part::Without(lit)),
+        };
+        if let Some(mesh) = rest {
+            self.add(placed.object(mesh), &placed.name, placed.slots.iter().copied(), None);
+        }
+        Some(())
+    }
+
+    /// Adds a mesh light; the number of the object and of its mesh, or `None` after reporting what is wrong.
+    pub(super) fn add_mesh_light(
         &mut self,
         node: &Node,
-        light: Option<u32>,
+        light: u32,
         meshes: &mut MeshTable,
         materials: &mut MaterialTable,
         context: &mut Context,
     ) -> Option<(u32, u32)> {
+        let placed = self.place(node, true, meshes, materials, context)?;
+        if placed.materials.iter().any(|name| materials.emission(name, context.sink).is_some()) {
+            warn_of_darkness("a mesh light, which shines by its own spectrum, the mesh", node.span, context);
+        }
+        let object = self.add(placed.object(placed.mesh), &placed.name, placed.slots, Some(light));
+        Some((object, placed.mesh))
+    }
+
+    /// Where an instance of a mesh stands and what it is made of; `None` after reporting what is wrong.
+    fn place(
+        &self,
+        node: &Node,
+        is_lamp: bool,
+        meshes: &mut MeshTable,
+        materials: &mut MaterialTable,
+        context: &mut Context,
+    ) -> Option<Placed> {
         let transform = placement::transform(node, context.sink);
         let name = node.text("mesh_name");
-        let mesh = meshes.get(&name.value, name.span, context)?;
+        let called = meshes.meant(&name.value);
+        let mesh = meshes.get(&called, name.span, context)?;
         let id = mesh.id;
         let uv = UvSets::Named(&mesh.uv_names);
+        let named = slot_names(node, mesh, context.sink);
         let slots: Vec<u32> =
-            mesh.slots.iter().map(|(name, span)| materials.get(name, *span, uv, context)).collect();
+            named.iter().map(|(name, span)| materials.get(name, *span, uv, context)).collect();
         let object = Object::Mesh { mesh: id, transform };
         self.refuse_far(&object, mesh.reach, node.span, context.sink);
         // Of lamps the triangles are looked at.
-        if light.is_none() {
+        if !is_lamp {
             self.warn_of_rounding(&object, mesh.reach, node.span, context.sink);
         }
-        Some((self.add(object, &name.value, slots, light), id))
+        let (uv_names, materials) =
+            (mesh.uv_names.clone(), named.into_iter().map(|(name, _)| name).collect());
+        Some(Placed { mesh: id, transform, name: called, slots, materials, uv_names })
+    }
+
+    /// The parts of models whose materials emit.
+    pub(super) fn take_emitting(&mut self) -> Vec<EmittingPart<'a>> {
+        std::mem::take(&mut self.emitting)
+    }
+
+    /// Makes an object a light.
+    pub(super) fn set_light(&mut self, object: u32, light: u32) {
+        self.lights[object as usize] = Some(light);
     }
 
     /// The objects, for building.

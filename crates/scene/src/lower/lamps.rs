@@ -1,6 +1,8 @@
 //! Lamps: what the triangles of a mesh light or of a rectangle emit.
 
 use super::Context;
+use super::emission::Emission;
+use super::geometry::EmittingPart;
 use super::materials::{MaterialTable, UvSets};
 use crate::codes;
 use indigo_decl::Node;
@@ -11,6 +13,8 @@ use indigo_light::{AreaLight, Profile};
 use indigo_math::{Vec2, Vec3d};
 use indigo_spectrum::observer::LUMENS_PER_WATT;
 use indigo_spectrum::{Spectrum, read};
+use indigo_texture::Texture;
+use std::f64::consts::PI;
 
 /// The part of its area that a lamp or portal may lose or gain by rounding, without a word: what can hardly be seen.
 const MOST_ROUNDING: f64 = 0.01;
@@ -101,16 +105,74 @@ pub(super) fn mesh_light(
     let mut lamp = shape.light(spectrum);
     if let Some(texture) = node.node("texture") {
         let texture = materials.lamp_texture(texture, node.span, uv, context);
-        // A set that is missing has been reported.
-        if let Some(uvs) = shape.mesh.uv_sets().get(texture.uv_set as usize) {
-            let corner = |i: u32| Vec2::from(uvs[i as usize].map(f64::from));
-            let uvs: Vec<[Vec2<f64>; 3]> = shape.mesh.triangles().iter().map(|t| t.map(corner)).collect();
-            lamp = lamp.with_texture(texture, &uvs);
-        }
+        lamp = with_texture(lamp, texture, shape);
     }
-    match node.node("ies_profile") {
-        Some(profile) => with_profile(node, profile, lamp, shape, errors_before, context),
-        None => scaled(node, lamp, errors_before, context.sink),
+    let Some(profile) = node.node("ies_profile") else {
+        return scaled(node, lamp, errors_before, context.sink);
+    };
+    if let Some(scale) = node.node("efficacy_scale") {
+        scale.disregard();
+        context.sink.push(
+            Diagnostic::warning(
+                codes::FLUX_TWICE,
+                scale.span,
+                "<efficacy_scale> has no effect beside <ies_profile>: the flux is that of the file",
+            )
+            .hint("take one of them out"),
+        );
+    }
+    with_profile(node.span, (profile, None), lamp, shape, errors_before, context)
+}
+
+/// The lamp with an image map; without it where the mesh lacks the uv set, which was reported.
+fn with_texture(lamp: AreaLight, texture: Texture, shape: &Shape) -> AreaLight {
+    let Some(uvs) = shape.mesh.uv_sets().get(texture.uv_set as usize) else { return lamp };
+    let corner = |i: u32| Vec2::from(uvs[i as usize].map(f64::from));
+    let uvs: Vec<[Vec2<f64>; 3]> = shape.mesh.triangles().iter().map(|t| t.map(corner)).collect();
+    lamp.with_texture(texture, &uvs)
+}
+
+/// A part of a model whose material emits.
+pub(super) fn emitting_part(
+    part: &EmittingPart,
+    emission: &Emission,
+    shape: &Shape,
+    materials: &mut MaterialTable,
+    context: &mut Context,
+) -> AreaLight {
+    let errors_before = context.sink.error_count();
+    let mut lamp = shape.light(emission.radiance.clone());
+    if let Some(texture) = emission.texture {
+        let uv = UvSets::Named(&part.uv_names);
+        let texture = materials.lamp_texture(texture, part.model.span, uv, context);
+        lamp = with_texture(lamp, texture, shape);
+    }
+    let is_of_part = |n: &&Node| materials.is_same(&n.text("material_name").value, &part.material);
+    let scale = part.model.nodes("emission_scale").filter(is_of_part).last();
+    let flux = scale.map(|scale| flux_lm(scale, lamp.area()));
+    let profile = part.model.nodes("ies_profile").filter(is_of_part).last();
+    let lamp = match (profile, scale.zip(flux)) {
+        (Some(profile), _) => {
+            with_profile(part.model.span, (profile, flux), lamp, shape, errors_before, context)
+        }
+        (None, Some((scale, flux))) => to_flux(scale, flux, lamp, errors_before, context.sink),
+        (None, None) => lamp,
+    };
+    match &emission.layer {
+        Some(layer) => lamp.times(layer),
+        None => lamp,
+    }
+}
+
+/// The luminous flux in lm that an `emission_scale` asks for, of an area in m².
+fn flux_lm(scale: &Node, area_m2: f64) -> f64 {
+    let value = scale.real("value");
+    match scale.text("measure").value.as_str() {
+        // An even lamp of luminance L and area A has I = L A straight ahead, and the flux π L A.
+        "luminous_intensity" => PI * value,
+        "luminance" => PI * area_m2 * value,
+        "luminous_emittance" => area_m2 * value,
+        _ => value,
     }
 }
 
@@ -131,6 +193,11 @@ fn scaled(node: &Node, lamp: AreaLight, errors_before: usize, sink: &mut Sink) -
         );
     }
     let flux = scale.real("power_drawn") * efficacy;
+    to_flux(scale, flux, lamp, errors_before, sink)
+}
+
+/// The lamp with a luminous flux in lm that an element asks for.
+fn to_flux(scale: &Node, flux: f64, lamp: AreaLight, errors_before: usize, sink: &mut Sink) -> AreaLight {
     if let Some(scaled) = lamp.clone().with_flux(flux) {
         read::refuse_excess(scaled.radiance(), scale.span, sink);
         return scaled;
@@ -146,35 +213,24 @@ fn scaled(node: &Node, lamp: AreaLight, errors_before: usize, sink: &mut Sink) -
 /// ahead, here a thousandth.
 const MOST_BEND_DEG: f64 = 2.56;
 
-/// The lamp with the directions and the flux of a file.
+/// The lamp with the directions of a file, and its flux unless another, in lm, is given.
 fn with_profile(
-    node: &Node,
-    profile: &Node,
+    span: Span,
+    (profile, flux): (&Node, Option<f64>),
     lamp: AreaLight,
     shape: &Shape,
     errors_before: usize,
     context: &mut Context,
 ) -> AreaLight {
-    if let Some(scale) = node.node("efficacy_scale") {
-        scale.disregard();
-        context.sink.push(
-            Diagnostic::warning(
-                codes::FLUX_TWICE,
-                scale.span,
-                "<efficacy_scale> has no effect beside <ies_profile>: the flux is that of the file",
-            )
-            .hint("take one of them out"),
-        );
-    }
     let bend_deg = shape.bend_deg();
     if bend_deg > MOST_BEND_DEG {
         let message = format!(
             "the mesh of a photometric lamp is not flat: its triangles, each of which emits about its own normal, \
              face {bend_deg:.1} degrees away from their common direction"
         );
-        context.sink.push(Diagnostic::warning(codes::NOT_FLAT, node.span, message));
+        context.sink.push(Diagnostic::warning(codes::NOT_FLAT, span, message));
     }
-    let Some((photometry, largest_cd)) = read_profile(profile, context) else { return lamp };
+    let Some((photometry, largest_cd)) = read_profile(profile, flux, context) else { return lamp };
     if let Some(lamp) = lamp.clone().with_profile(photometry, shape.x_axis) {
         let largest = lamp.radiance().scaled(largest_cd / lamp.area());
         read::refuse_excess(&largest, profile.span, context.sink);
@@ -187,8 +243,8 @@ fn with_profile(
     lamp
 }
 
-/// The profile of a file, and its largest intensity in cd.
-fn read_profile(node: &Node, context: &mut Context) -> Option<(Profile, f64)> {
+/// The profile of a file, scaled to a flux in lm if one is given, and its largest intensity in cd.
+fn read_profile(node: &Node, flux: Option<f64>, context: &mut Context) -> Option<(Profile, f64)> {
     let path = node.text("path");
     let file = context.read(&path.value, path.span)?;
     match ies::decode(&file.bytes) {
@@ -197,8 +253,13 @@ fn read_profile(node: &Node, context: &mut Context) -> Option<(Profile, f64)> {
                 let note = format!("{}:{position}: {note}", file.path);
                 context.sink.push(Diagnostic::warning(codes::FILE_NOTE, path.span, note));
             }
-            let largest = p.candela.iter().copied().fold(0.0, f64::max);
-            Some((Profile::new(&p.vertical_deg, &p.horizontal_deg, &p.candela), largest))
+            let profile = |candela: &[f64]| Profile::new(&p.vertical_deg, &p.horizontal_deg, candela);
+            let own = profile(&p.candela).flux();
+            // A file without light was an error.
+            let scale = flux.map_or(1.0, |flux| flux / own);
+            let candela: Vec<f64> = p.candela.iter().map(|cd| cd * scale).collect();
+            let largest = candela.iter().copied().fold(0.0, f64::max);
+            Some((profile(&candela), largest))
         }
         Err(error) => {
             context.sink.push(

@@ -22,8 +22,30 @@ pub(super) struct Lights {
 }
 
 impl Lights {
-    pub(super) fn add_environment(&mut self, root: &Node, context: &mut Context) {
-        self.distant = environment::distant_lights(root, context);
+    pub(super) fn add_environment(&mut self, root: &Node, materials: &MaterialTable, context: &mut Context) {
+        self.distant = environment::distant_lights(root, materials, context);
+    }
+
+    /// Adds the parts of models whose materials emit.
+    pub(super) fn add_emitting_parts(
+        &mut self,
+        geometry: &mut Geometry,
+        meshes: &MeshTable,
+        materials: &mut MaterialTable,
+        context: &mut Context,
+    ) {
+        for part in geometry.take_emitting() {
+            let Some(emission) = materials.emission(&part.material, context.sink).cloned() else { continue };
+            geometry.set_light(part.object, self.lamps.len() as u32);
+            let shape = Shape::new(geometry.object(part.object), meshes.triangles(part.mesh));
+            shape.report_rounding(part.model.span, context.sink);
+            self.lamps.push(lamps::emitting_part(&part, &emission, &shape, materials, context));
+        }
+    }
+
+    /// Whether there is any light.
+    pub(super) fn is_empty(&self) -> bool {
+        self.lamps.is_empty() && self.distant.is_empty()
     }
 
     pub(super) fn add_mesh_lights(
@@ -36,7 +58,7 @@ impl Lights {
     ) {
         for node in root.nodes("meshlight") {
             let light = self.lamps.len() as u32;
-            let placed = geometry.add_instance(node, Some(light), meshes, materials, context);
+            let placed = geometry.add_mesh_light(node, light, meshes, materials, context);
             let Some((object, mesh)) = placed else {
                 node.disregard();
                 continue;

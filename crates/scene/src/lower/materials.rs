@@ -1,10 +1,12 @@
 //! Materials by name, built when they are first used with a mesh's texture coordinates.
 
 use super::Context;
+use super::emission::{self, Emission, Layers};
 use super::media::MediumTable;
 use super::names::Names;
 use super::textures::TextureTable;
 use crate::codes;
+use crate::settings::Settings;
 use indigo_decl::{Kind, Node};
 use indigo_diag::{Diagnostic, Sink, Span, Spanned};
 use indigo_formats::nk;
@@ -43,11 +45,16 @@ pub(super) struct MaterialTable<'a> {
     /// Blends whose constituents are being built, from the outermost in.
     open: Vec<String>,
     black: Option<MaterialId>,
+    layers: Layers,
+    /// What materials emit, as far as that was asked.
+    emissions: HashMap<String, Option<Emission<'a>>>,
 }
 
 impl<'a> MaterialTable<'a> {
-    pub(super) fn new(root: &'a Node, sink: &mut Sink) -> Self {
+    pub(super) fn new(root: &'a Node, settings: &Settings, sink: &mut Sink) -> Self {
         Self {
+            layers: Layers::new(settings, sink),
+            emissions: HashMap::new(),
             names: Names::new(root, "material", sink),
             materials: vec![],
             called: vec![],
@@ -64,6 +71,7 @@ impl<'a> MaterialTable<'a> {
     /// The number of a material by name on a surface with certain uv sets. What is wrong is reported,
     /// and the number of some material returned all the same.
     pub(super) fn get(&mut self, name: &str, span: Span, uv: UvSets, context: &mut Context) -> MaterialId {
+        let name = &*self.names.meant(name).to_owned();
         if let Some(&known) = self.plain.get(name) {
             return known;
         }
@@ -78,26 +86,67 @@ impl<'a> MaterialTable<'a> {
         self.asked_for.insert(name.to_owned());
         let node = self.names.find(name, span, context.sink);
         let may_open = self.may_open(name, span, context.sink);
-        // Without a kind it is incomplete, which was reported.
+        // Without a kind it is incomplete, or of one that grey stands in for; either was reported.
         let Some(kind) = node.and_then(Node::alternative).filter(|_| may_open) else {
             // Reported as what it is, not as unread.
             node.into_iter().for_each(Node::disregard);
-            let black = self.black();
-            self.plain.insert(name.to_owned(), black);
-            return black;
+            let grey = self.add(Material::grey(), name);
+            self.plain.insert(name.to_owned(), grey);
+            return grey;
         };
         self.open.push(name.to_owned());
-        let mut resources = Resources { table: self, context, uv, user: span, uses_textures: false };
-        let material = Material::build(kind, &mut resources);
-        let uses_textures = resources.uses_textures;
+        // What it emits is the lamps' business.
+        emission::disregard(kind);
+        let (id, uses_textures) = if let Some(other) = stand_in(kind) {
+            report_stand_in(kind, &other, context.sink);
+            let id = self.get(&other.value, other.span, uv, context);
+            (id, !self.plain.contains_key(self.names.meant(&other.value)))
+        } else {
+            report_stand_in_of_kind(kind, context.sink);
+            let mut resources = Resources { table: self, context, uv, user: span, uses_textures: false };
+            let material = Material::build(kind, &mut resources);
+            let uses_textures = resources.uses_textures;
+            (self.add(material, name), uses_textures)
+        };
         self.open.pop();
-        let id = self.add(material, name);
         if uses_textures {
             self.textured.insert(key, id);
         } else {
             self.plain.insert(key.0, id);
         }
         id
+    }
+
+    /// What a material emits, or what stands in for it; `None` where it emits nothing.
+    pub(super) fn emission(&mut self, name: &str, sink: &mut Sink) -> Option<&Emission<'a>> {
+        let name = self.names.meant(name).to_owned();
+        if !self.emissions.contains_key(&name) {
+            let kind = self.kind_that_counts(&name);
+            let emission = kind.and_then(|kind| Emission::of(kind, &self.layers, sink));
+            self.emissions.insert(name.clone(), emission);
+        }
+        self.emissions.get(&name)?.as_ref()
+    }
+
+    /// The kind of a material, or of the one that stands in for it.
+    fn kind_that_counts(&self, name: &str) -> Option<&'a Node> {
+        let mut kind = self.names.get(name)?.alternative()?;
+        // Materials that lead back to themselves are reported elsewhere.
+        for _ in 0..blend::MAX_DEPTH {
+            let Some(other) = stand_in(kind) else { break };
+            kind = self.names.get(&other.value)?.alternative()?;
+        }
+        Some(kind)
+    }
+
+    /// The kind of a material by name, whether anything is made of it or not; nothing is reported.
+    pub(super) fn kind_of(&self, name: &str) -> Option<&'a Node> {
+        self.names.get(name)?.alternative()
+    }
+
+    /// Whether two references mean one material.
+    pub(super) fn is_same(&self, a: &str, b: &str) -> bool {
+        self.names.meant(a) == self.names.meant(b)
     }
 
     /// Whether a material may be begun: not within itself, nor too deep in others.
@@ -177,7 +226,10 @@ impl<'a> MaterialTable<'a> {
             if let Some(name) = next.take()
                 && done.insert(name.clone())
             {
-                let parts = self.names.get(&name).map(constituents).unwrap_or_default();
+                let mut parts = self.names.get(&name).map(constituents).unwrap_or_default();
+                for part in &mut parts {
+                    part.value = self.names.meant(&part.value).to_owned();
+                }
                 above.insert(name.clone());
                 open.push((name, parts));
             }
@@ -257,8 +309,11 @@ impl MaterialResources for Resources<'_, '_, '_, '_, '_> {
 
     fn material(&mut self, node: &Node, field: &str) -> MaterialId {
         let name = node.text(field);
+        if self.table.emission(&name.value, self.context.sink).is_some() {
+            emission::warn_of_darkness("a blend", name.span, self.context);
+        }
         let id = self.table.get(&name.value, name.span, self.uv, self.context);
-        self.uses_textures |= !self.table.plain.contains_key(&name.value);
+        self.uses_textures |= !self.table.plain.contains_key(self.table.names.meant(&name.value));
         id
     }
 
@@ -273,6 +328,42 @@ impl MaterialResources for Resources<'_, '_, '_, '_, '_> {
 
     fn sink(&mut self) -> &mut Sink {
         self.context.sink
+    }
+}
+
+/// The material that stands in for a kind which is not rendered as it is meant.
+fn stand_in(kind: &Node) -> Option<Spanned<String>> {
+    match kind.block.name {
+        "coating" => kind.opt_text("substrate_material_name"),
+        "double_sided_thin" => {
+            kind.disregard_field("back_material_name");
+            kind.opt_text("front_material_name")
+        }
+        "sum" => {
+            let mut parts = kind.nodes("mat");
+            let first = parts.next();
+            first.into_iter().chain(parts).for_each(Node::disregard);
+            first.and_then(|mat| mat.opt_text("mat_name"))
+        }
+        _ => None,
+    }
+}
+
+fn report_stand_in(kind: &Node, other: &Spanned<String>, sink: &mut Sink) {
+    sink.push_or_count(Diagnostic::warning(
+        codes::STANDS_IN,
+        kind.span,
+        format!(
+            "<{}> is of a later format version and not rendered: {} stands in",
+            kind.block.name, other.value
+        ),
+    ));
+}
+
+fn report_stand_in_of_kind(kind: &Node, sink: &mut Sink) {
+    if kind.block.name == "fast_sss" {
+        let message = "<fast_sss> is of a later format version (4.0) and not rendered: <phong> stands in";
+        sink.push_or_count(Diagnostic::warning(codes::STANDS_IN, kind.span, message));
     }
 }
 
@@ -307,11 +398,19 @@ fn tabulated(index: &nk::ComplexIndex) -> [Spectrum; 2] {
 
 impl Resources<'_, '_, '_, '_, '_> {
     fn uv_set(&mut self, node: &Node) -> u32 {
-        let name = node.text("uv_set");
+        let (name, index) = (node.text("uv_set"), node.opt_int("uv_set_index"));
         let UvSets::Named(sets) = self.uv else { return 0 };
-        if let Some((_, set)) = sets.iter().find(|(n, _)| *n == name.value) {
+        // A number counts before a name; without either it is the set that is called `default`, or else the first.
+        let found = match index {
+            Some(index) => sets.iter().find(|(_, set)| i64::from(*set) == index.value),
+            None => sets.iter().find(|(n, _)| *n == name.value),
+        };
+        let first = sets.iter().find(|(_, set)| *set == 0);
+        let is_free = index.is_none() && !node.has("uv_set");
+        if let Some((_, set)) = found.or_else(|| first.filter(|_| is_free)) {
             return *set;
         }
+        let name = index.map_or(name, |index| Spanned::new(format!("number {}", index.value), index.span));
         let names: Vec<&str> = sets.iter().map(|(n, _)| n.as_str()).collect();
         let offers =
             if names.is_empty() { "no uv set".to_owned() } else { format!("only {}", names.join(", ")) };

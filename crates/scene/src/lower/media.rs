@@ -46,7 +46,7 @@ impl<'a> MediumTable<'a> {
             return MediumId::AIR;
         }
         let Some(node) = self.names.find(name, span, sink) else { return MediumId::AIR };
-        let Some(&id) = self.ids.get(name) else { return MediumId::AIR };
+        let Some(&id) = self.ids.get(self.names.meant(name)) else { return MediumId::AIR };
         let i = id.index();
         if !self.asked_for[i] {
             self.asked_for[i] = true;

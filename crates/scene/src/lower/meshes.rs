@@ -26,21 +26,52 @@ pub(super) struct MeshTable<'a> {
     names: Names<'a>,
     read: HashMap<String, Option<Mesh>>,
     triangles: Vec<TriangleMesh>,
+    /// Parts of meshes by what they are of: `None` where that is no triangle.
+    parts: HashMap<(u32, Part), Option<u32>>,
+}
+
+/// Which triangles of a mesh are meant.
+#[derive(Clone, PartialEq, Eq, Hash)]
+pub(super) enum Part {
+    /// Those of one material slot, which becomes slot 0.
+    Slot(u32),
+    /// Those of all slots but some.
+    Without(Vec<u32>),
+}
+
+impl Part {
+    fn holds(&self, slot: u32) -> bool {
+        match self {
+            Self::Slot(own) => *own == slot,
+            Self::Without(others) => !others.contains(&slot),
+        }
+    }
 }
 
 impl<'a> MeshTable<'a> {
     pub(super) fn new(root: &'a Node, sink: &mut Sink) -> Self {
-        Self { names: Names::new(root, "mesh", sink), read: HashMap::new(), triangles: vec![] }
+        Self {
+            names: Names::new(root, "mesh", sink),
+            read: HashMap::new(),
+            triangles: vec![],
+            parts: HashMap::new(),
+        }
     }
 
     /// The mesh of a name, read if it has not been yet; `None` after reporting why there is none.
     pub(super) fn get(&mut self, name: &str, span: Span, context: &mut Context) -> Option<&Mesh> {
+        let name = &*self.meant(name);
         if !self.read.contains_key(name) {
             let mesh =
                 self.names.find(name, span, context.sink).and_then(|node| self.read_mesh(node, context));
             self.read.insert(name.to_owned(), mesh);
         }
         self.read.get(name)?.as_ref()
+    }
+
+    /// The name of the mesh that a reference means, which may refer by uid.
+    pub(super) fn meant(&self, reference: &str) -> String {
+        self.names.meant(reference).to_owned()
     }
 
     /// Reports a name that no mesh has.
@@ -57,6 +88,18 @@ impl<'a> MeshTable<'a> {
     pub(super) fn add(&mut self, mesh: TriangleMesh) -> u32 {
         self.triangles.push(mesh);
         (self.triangles.len() - 1) as u32
+    }
+
+    /// A part of a mesh as a mesh of its own, with the vertices that it uses; `None` where nothing is of it.
+    pub(super) fn part(&mut self, id: u32, part: Part) -> Option<u32> {
+        let key = (id, part);
+        if let Some(known) = self.parts.get(&key) {
+            return *known;
+        }
+        let mesh = part_of(&self.triangles[id as usize], &key.1);
+        let number = mesh.map(|mesh| self.add(mesh));
+        self.parts.insert(key, number);
+        number
     }
 
     fn read_mesh(&mut self, node: &Node, context: &mut Context) -> Option<Mesh> {
@@ -80,7 +123,7 @@ impl<'a> MeshTable<'a> {
             .iter()
             .enumerate()
             .map(|(i, name)| (name.clone(), material_spans.get(i).copied().unwrap_or(place)));
-        let (slots, uv_names) = (slots.collect(), data.uv_names.clone());
+        let (slots, uv_names) = (slots.collect(), names_of_all_sets(&data));
         let triangles = to_triangles(data, scale, smooth, place, context.sink)?;
         let reach = triangles.positions().iter().flatten().fold(0.0_f32, |most, x| most.max(x.abs()));
         Some(Mesh { id: self.add(triangles), slots, uv_names, reach: reach.into() })
@@ -95,6 +138,45 @@ impl<'a> MeshTable<'a> {
     pub(super) fn into_triangles(self) -> Vec<TriangleMesh> {
         self.triangles
     }
+}
+
+fn part_of(mesh: &TriangleMesh, part: &Part) -> Option<TriangleMesh> {
+    let mut part_buffers = MeshBuffers { smooth: mesh.is_smooth(), ..MeshBuffers::default() };
+    part_buffers.uv_sets = vec![vec![]; mesh.uv_sets().len()];
+    let mut numbers: HashMap<u32, u32> = HashMap::new();
+    for (i, corners) in mesh.triangles().iter().enumerate() {
+        let slot = mesh.material_slot(i as u32);
+        if !part.holds(slot) {
+            continue;
+        }
+        part_buffers.triangles.push(corners.map(|vertex| {
+            *numbers.entry(vertex).or_insert_with(|| {
+                let v = vertex as usize;
+                part_buffers.positions.push(mesh.positions()[v]);
+                part_buffers.normals.extend(mesh.normals().get(v));
+                for (set, values) in part_buffers.uv_sets.iter_mut().zip(mesh.uv_sets()) {
+                    set.push(values[v]);
+                }
+                (part_buffers.positions.len() - 1) as u32
+            })
+        }));
+        if matches!(part, Part::Without(_)) {
+            part_buffers.triangle_materials.push(slot);
+        }
+    }
+    // What was taken from a sound mesh makes one.
+    if part_buffers.triangles.is_empty() { None } else { TriangleMesh::new(part_buffers).ok() }
+}
+
+/// The names of the uv sets; sets that the source does not name can be found by their number, and have one of it.
+fn names_of_all_sets(data: &MeshData) -> Vec<(String, u32)> {
+    let mut names = data.uv_names.clone();
+    for set in 0..data.uv_sets.len() as u32 {
+        if names.iter().all(|(_, named)| *named != set) {
+            names.push((format!("uv{set}"), set));
+        }
+    }
+    names
 }
 
 fn read_file(path: &str, span: Span, context: &mut Context) -> Option<MeshData> {

@@ -4,9 +4,12 @@
 //! no effect.
 
 mod aperture;
+mod background;
 mod camera;
+mod emission;
 mod environment;
 mod geometry;
+mod keyframes;
 mod lamps;
 mod lights;
 mod materials;
@@ -16,6 +19,7 @@ mod names;
 mod picture;
 mod placement;
 mod portal_probe;
+mod scales;
 mod textures;
 
 use crate::codes;
@@ -130,14 +134,16 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
     let camera = camera_node.and_then(|c| camera::parameters(c, settings, film.as_ref(), context));
 
     let mut meshes = MeshTable::new(root, context.sink);
-    let mut materials = MaterialTable::new(root, context.sink);
+    let mut materials = MaterialTable::new(root, settings, context.sink);
     let mut geometry = Geometry::new(origin);
     geometry.add_objects(root, settings, &mut meshes, &mut materials, context);
     let mut lights = lights::Lights::default();
-    lights.add_environment(root, context);
+    lights.add_environment(root, &materials, context);
+    lights.add_emitting_parts(&mut geometry, &meshes, &mut materials, context);
     lights.add_mesh_lights(root, &mut geometry, &mut meshes, &mut materials, context);
     lights.add_rectangles(root, &mut geometry, &mut meshes, &mut materials, context.sink);
     lights.add_portals(root, &geometry, &mut meshes, context);
+    scales::report_idle(root, &mut materials, context.sink);
     root.visit_references(&mut |what, name, span| match what {
         "mesh" => meshes.check_name(name, span, context.sink),
         "medium" => materials.check_medium(name, span, context.sink),
@@ -152,7 +158,7 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
     let caching = settings.bool("cache_trees");
     // A light that is there but wrong, or not rendered, has its own message.
     let is_dark = LIGHTS.iter().all(|light| !root.has(light) && !root.is_faulty(light));
-    if is_dark && !context.sink.has_errors() {
+    if is_dark && lights.is_empty() && !context.sink.has_errors() {
         context.sink.push(
             Diagnostic::warning(
                 codes::NO_LIGHT,

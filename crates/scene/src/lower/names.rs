@@ -1,7 +1,7 @@
 //! Names defined in a scene, resolved once everything is read.
 
 use crate::codes;
-use indigo_decl::Node;
+use indigo_decl::{Node, UID};
 use indigo_diag::{Candidates, Diagnostic, Sink, Span};
 use std::collections::{HashMap, HashSet};
 
@@ -9,6 +9,8 @@ use std::collections::{HashMap, HashSet};
 pub(super) struct Names<'a> {
     what: &'static str,
     by_name: HashMap<String, &'a Node>,
+    /// Names by uid.
+    by_uid: HashMap<String, String>,
     /// Names that were looked for in vain, each of which is reported once.
     missed: HashSet<String>,
     /// All names, made ready when the first hint is wanted.
@@ -20,11 +22,15 @@ pub(super) struct Names<'a> {
 const MOST_HINTS: usize = 20;
 
 impl<'a> Names<'a> {
-    /// The elements `what` of a scene. Where a name is defined twice the last definition counts.
+    /// The elements `what` of a scene. Where a name or uid is defined twice the last definition counts.
     pub(super) fn new(root: &'a Node, what: &'static str, sink: &mut Sink) -> Self {
         let mut by_name: HashMap<String, &Node> = HashMap::new();
+        let mut by_uid = HashMap::new();
         for node in root.nodes(what) {
             let name = node.text("name");
+            if let Some(uid) = node.opt_text("uid") {
+                by_uid.insert(uid.value, name.value.clone());
+            }
             if let Some(before) = by_name.insert(name.value.clone(), node) {
                 before.disregard();
                 sink.push(Diagnostic::warning(
@@ -34,7 +40,13 @@ impl<'a> Names<'a> {
                 ));
             }
         }
-        Self { what, by_name, missed: HashSet::new(), candidates: None }
+        Self { what, by_name, by_uid, missed: HashSet::new(), candidates: None }
+    }
+
+    /// The name that a reference means, which may refer by uid.
+    pub(super) fn meant<'n>(&'n self, reference: &'n str) -> &'n str {
+        let uid = reference.strip_prefix(UID).filter(|_| !self.by_name.contains_key(reference));
+        uid.and_then(|uid| self.by_uid.get(uid)).map_or(reference, String::as_str)
     }
 
     /// The element of a name; `None` after reporting that there is none.
@@ -65,7 +77,7 @@ impl<'a> Names<'a> {
 
     /// The element of a name, if there is one; nothing is reported.
     pub(super) fn get(&self, name: &str) -> Option<&'a Node> {
-        self.by_name.get(name).copied()
+        self.by_name.get(self.meant(name)).copied()
     }
 
     /// All elements.

@@ -83,6 +83,9 @@ pub(super) fn decisive(
         ("vignetting", settings.bool("vignetting").to_string()),
         (DIFFRACTION_OF_RAYS, by_rays.to_string()),
     ];
+    if settings.nodes("layer_setting").next().is_some() {
+        values.push(("layer_setting", settings.listed_blocks("layer_setting")));
+    }
     if !is_mask {
         // A mask is rendered in one way, whatever these say.
         values.extend([
@@ -113,7 +116,7 @@ fn region(settings: &Settings, size: FilmSize, sink: &mut Sink) -> Option<Region
 }
 
 fn filter(settings: &Settings, field: &str, sink: &mut Sink) -> Filter {
-    // Without a kind there was an error.
+    // Without a kind there was an error, or a word that this stands in.
     let Some(kind) = settings.node(field).and_then(Node::alternative) else { return Filter::Box };
     kind.mark_used();
     let filter = match kind.block.name {
@@ -205,7 +208,7 @@ fn tone_mapping(root: &Node, context: &mut Context) -> ToneMapping {
             ev_adjust: t.real("ev_adjust"),
             film_iso: t.real("film_iso"),
         },
-        // Left unread, and so reported.
+        // Without a kind that was reported.
         _ => DEFAULT_TONE_MAPPING,
     }
 }

@@ -27,6 +27,7 @@ impl TextureTable {
     /// in.
     pub(super) fn get(&mut self, node: &Node, uv_set: u32, context: &mut Context) -> TextureId {
         let path = node.text("path");
+        warn_of_generated_coordinates(node, context);
         let [exponent, a, b, c] = ["exponent", "a", "b", "c"].map(|field| node.real(field));
         let file = self.load(&path.value, path.span, context);
         let key = (file, [exponent, a, b, c].map(f64::to_bits), uv_set);
@@ -70,6 +71,24 @@ impl TextureTable {
         self.found.insert(named, file.clone());
         file
     }
+}
+
+/// Says so where texture coordinates are not to be those of the mesh: that is not rendered.
+fn warn_of_generated_coordinates(node: &Node, context: &mut Context) {
+    let Some(generation) = node.node("tex_coord_generation") else { return };
+    let is_identity = |uv: &Node| {
+        let matrix = uv.value("matrix").map(|_| uv.reals("matrix").value);
+        let translation = uv.value("translation").map(|_| uv.reals("translation").value);
+        let is_one =
+            |m: &Vec<f64>| *m == [1.0, 0.0, 0.0, 1.0] || *m == [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+        matrix.as_ref().is_none_or(is_one) && translation.iter().flatten().all(|v| *v == 0.0)
+    };
+    let transformed = generation.node("uv").is_some_and(|uv| !is_identity(uv));
+    if transformed || generation.node("spherical").is_some() {
+        let message = "<tex_coord_generation> is of a later format version (2.0) and not rendered: the coordinates of the mesh stand in";
+        context.sink.push_or_count(Diagnostic::warning(codes::STANDS_IN, generation.span, message));
+    }
+    generation.disregard();
 }
 
 fn decode(file: &str, bytes: &[u8], span: Span, context: &mut Context) -> Image {

@@ -5,7 +5,8 @@ use indigo_decl::{Alternatives, Block, Field, Kind, Later, Presence};
 const KINDS: &[&Block] = &[&BOX, &GAUSSIAN, &MN_CUBIC];
 
 const CHOICE: Alternatives = Alternatives {
-    later: &[Later::new("fastbox", "2.0"), Later::new("radial", "4.0"), Later::new("sharp", "4.0")],
+    later: &[Later::new("radial", "4.0"), Later::new("sharp", "4.0")],
+    stand_in: "box",
     ..Alternatives::new("filter", KINDS)
 };
 
@@ -39,6 +40,7 @@ pub static BOX: Block = Block::new(
     "The mean over one pixel. Aliases badly; the sharpest in theory, the worst to look at. It has no parameters.",
     &[],
 )
+.with_aliases(&["fastbox"])
 .with_example("<box/>");
 
 /// The declaration of `gaussian`.
@@ -66,5 +68,5 @@ pub static MN_CUBIC: Block = Block::new(
         ),
     ],
 )
-.with_later(&[Later::new("radius", "3.0")])
+.with_later(&[Later::new("radius", "3.0").instead("is taken as 2, that of the paper").unless("2")])
 .with_example("<mn_cubic><blur>0.6</blur><ring>0.2</ring></mn_cubic>");

@@ -1,11 +1,14 @@
 //! Geometry, declared.
 
+use super::emission::{EMISSION_SCALE, IES_PROFILE};
+use indigo_camera::declare::KEYFRAME;
 use indigo_decl::{Block, Field, Group, Kind, Later, Presence, Range};
 use indigo_igs::EMBEDDED;
 use indigo_light::kinds::placement::{MESH_NAME, POS, ROTATION, SCALE};
 
 const MATERIAL_NAME: Field =
-    Field::new("material_name", Kind::Reference("material"), Presence::Required, "Name of its material.");
+    Field::new("material_name", Kind::Reference("material"), Presence::Required, "Name of its material.")
+        .aliases(&["material_uid"]);
 
 /// The declaration of `mesh`.
 pub static MESH: Block = Block::new(
@@ -14,6 +17,12 @@ pub static MESH: Block = Block::new(
      they like. Where it stands in the scene does not matter.",
     &[
         Field::new("name", Kind::Name, Presence::Required, "Name by which it is placed."),
+        Field::new(
+            "uid",
+            Kind::Text,
+            Presence::Optional,
+            "A number by which later versions refer to it (`geometry_uid`).",
+        ),
         Field::new("scale", Kind::Real, Presence::Default("1.0"), "Factor on the vertex positions.")
             .range(Range::Above(0.0)),
         Field::new(
@@ -45,18 +54,18 @@ pub static MESH: Block = Block::new(
 )
 .with_needs(&[Group::one(&["external", "embedded", "path"])])
 .with_later(&[
-    Later::new("uid", "3.0"),
     Later::new("metadata", "3.0"),
-    Later::new("merge_vertices_with_same_pos_and_normal", "2.0"),
-    Later::new("subdivision_smoothing", "1.1"),
-    Later::new("max_num_subdivisions", "1.1"),
+    // Subdivision alone would see a difference.
+    Later::new("merge_vertices_with_same_pos_and_normal", "2.0").unless("false"),
+    Later::new("subdivision_smoothing", "1.1").instead("is ignored: the mesh is not subdivided").unless("false"),
+    Later::new("max_num_subdivisions", "1.1").instead("is ignored: the mesh is not subdivided").unless("0"),
     Later::new("subdivide_pixel_threshold", "1.1"),
     Later::new("subdivide_curvature_threshold", "1.1"),
     Later::new("displacement_error_threshold", "1.1"),
-    Later::new("view_dependent_subdivision", "1.1"),
-    Later::new("wrap_u", "2.0"),
-    Later::new("wrap_v", "2.0"),
-    Later::new("invisible_to_camera", "4.0"),
+    Later::new("view_dependent_subdivision", "1.1").unless("false"),
+    Later::new("wrap_u", "2.0").unless("false"),
+    Later::new("wrap_v", "2.0").unless("false"),
+    Later::new("invisible_to_camera", "4.0").unless("false"),
 ])
 .with_example(
     r#"<mesh>
@@ -91,25 +100,68 @@ pub static EXTERNAL: Block = Block::new(
 .with_example("<external><path>..\\hand\\hand.obj</path></external>");
 
 /// The declaration of `model`.
-pub static MODEL: Block =
-    Block::new("model", "Places a mesh in the scene.", &[POS, SCALE, ROTATION, MESH_NAME])
-        .with_later(&[
-            Later::new("name", "3.0"),
-            Later::new("uid", "3.0"),
-            Later::new("keyframe", "3.0"),
-            Later::new("emission_scale", "1.1"),
-            Later::new("ies_profile", "1.1"),
-            Later::new("invisible_to_camera", "4.0"),
-        ])
-        .with_ignored(&["enable_normal_smoothing"])
-        .with_example(
-            "<model>
+pub static MODEL: Block = Block::new(
+    "model",
+    "Places a mesh in the scene. The parts of it whose materials emit are lamps.",
+    &[
+        Field::new("name", Kind::Text, Presence::Optional, "What the model is called; nothing refers to it."),
+        Field::new(
+            "uid",
+            Kind::Text,
+            Presence::Optional,
+            "A number of later versions; nothing refers to it.",
+        ),
+        Field { presence: Presence::Optional, ..POS },
+        KEYFRAME,
+        Field { presence: Presence::Default("1"), ..SCALE },
+        ROTATION,
+        MESH_NAME,
+        Field::new(
+            "materials",
+            Kind::Block(&MATERIALS),
+            Presence::Optional,
+            "Its materials, in place of those that the mesh names.",
+        ),
+        Field::new(
+            "emission_scale",
+            Kind::Block(&EMISSION_SCALE),
+            Presence::Repeated,
+            "Scales the light of one of its materials.",
+        ),
+        Field::new(
+            "ies_profile",
+            Kind::Block(&IES_PROFILE),
+            Presence::Repeated,
+            "Into which directions one of its materials shines.",
+        ),
+    ],
+)
+.with_aliases(&["model2"])
+.with_needs(&[Group::any(&["pos", "keyframe"])])
+.with_later(&[Later::new("invisible_to_camera", "4.0").unless("false")])
+.with_ignored(&["enable_normal_smoothing"])
+.with_example(
+    "<model>
     <pos>0 0 0</pos>
     <scale>1.0</scale>
     <rotation><matrix>1 0 0 0 1 0 0 0 1</matrix></rotation>
     <mesh_name>quad</mesh_name>
 </model>",
-        );
+);
+
+/// The declaration of `materials`.
+pub static MATERIALS: Block = Block::new(
+    "materials",
+    "The materials of a model, one after the other: the first takes the place of the first that the mesh names, and so on.",
+    &[Field::new(
+        "material_name",
+        Kind::Reference("material"),
+        Presence::Repeated,
+        "Name of a material.",
+    )
+    .aliases(&["material_uid"])],
+)
+.with_example("<materials><material_name>white</material_name></materials>");
 
 /// The declaration of `plane`.
 pub static PLANE: Block = Block::new(

@@ -1,5 +1,6 @@
 //! The scene as a whole: every top-level element, declared.
 
+pub mod emission;
 pub mod filter;
 pub mod geometry;
 pub mod settings;
@@ -9,7 +10,7 @@ use indigo_camera::declare::CAMERA;
 use indigo_decl::{Block, Field, Kind, Later, Presence};
 use indigo_igs::INCLUDE;
 use indigo_light::kinds::{background, env_map, mesh, portal, rectangle, skylight};
-use indigo_scatter::materials::MATERIAL;
+use indigo_scatter::materials::{MATERIAL, MATERIAL_KIND, MATERIAL_LATER};
 use indigo_scatter::media::MEDIUM;
 
 const fn one(block: &'static Block, doc: &'static str) -> Field {
@@ -33,10 +34,11 @@ pub static SCENE: Block = Block::new(
         one(&background::BLOCK, "The same light from everywhere."),
         one(&skylight::BLOCK, "Sun and sky."),
         one(&env_map::BLOCK, "Light from a picture of the surroundings."),
+        one(&emission::BACKGROUND_SETTINGS, "What surrounds the scene, as later versions write it."),
         many(&MATERIAL, "Defines a material."),
         many(&MEDIUM, "Defines a medium."),
         many(&geometry::MESH, "Defines a mesh."),
-        many(&geometry::MODEL, "Places a mesh."),
+        many(&geometry::MODEL, "Places a mesh.").aliases(geometry::MODEL.aliases),
         many(&geometry::SPHERE, "A sphere."),
         many(&geometry::PLANE, "An infinite plane."),
         many(&rectangle::BLOCK, "A rectangular lamp."),
@@ -47,8 +49,6 @@ pub static SCENE: Block = Block::new(
 )
 .with_aliases(&["scenedata"])
 .with_later(&[
-    Later::new("model2", "4.0"),
-    Later::new("background_settings", "2.0"),
     Later::new("metadata", "3.0"),
     Later::new("section_plane", "3.0"),
     Later::new("environment_settings", "4.0"),
@@ -76,6 +76,19 @@ pub static SCENE: Block = Block::new(
     <sphere><center>0 0 1</center><radius>1</radius><material_name>white</material_name></sphere>
 </scene>",
 );
+
+/// The material of a background: as any, but that it need not have a name.
+pub static BACKGROUND_KIND: Block = Block::new(
+    "material",
+    "The material of what surrounds the scene: a kind of material that emits, `sunsky` or `sum`.",
+    &[
+        Field::new("name", Kind::Text, Presence::Optional, "Its name."),
+        Field::new("uid", Kind::Text, Presence::Optional, "A number of its own."),
+    ],
+)
+.with_alternatives(MATERIAL_KIND)
+.with_later(MATERIAL_LATER)
+.with_example("<material><name>surroundings</name><sunsky><sundir>0 0.6 1</sundir></sunsky></material>");
 
 /// The reference of the scene format, as Markdown.
 pub fn reference() -> String {

@@ -1,5 +1,6 @@
 //! Render settings, declared.
 
+use super::emission::LAYER_SETTING;
 use super::filter::{DOWNSIZE_FILTER, SPLAT_FILTER};
 use indigo_decl::{Block, Field, Kind, Later, Presence, Range};
 
@@ -214,6 +215,12 @@ pub static RENDERER_SETTINGS: Block = Block::new(
             Presence::Optional,
             "How a super-sampled picture is made smaller: `mn_cubic` where it is missing.",
         ),
+        Field::new(
+            "layer_setting",
+            Kind::Block(&LAYER_SETTING),
+            Presence::Repeated,
+            "How bright the emitting materials of a layer shine; as they are, where it is missing.",
+        ),
     ],
 )
 .with_later(LATER)
@@ -273,7 +280,6 @@ const LATER: &[Later] = &[
     Later::new("clamp_contributions", "4.0"),
     Later::new("max_contribution", "4.0"),
     Later::new("optimise_for_denoising", "4.0"),
-    Later::new("layer_setting", "1.1"),
     Later::new("colour_curves", "4.0"),
     Later::new("normals_channel", "4.0"),
     Later::new("depth_channel", "4.0"),

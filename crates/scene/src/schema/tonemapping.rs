@@ -11,6 +11,7 @@ pub static TONEMAPPING: Block = Block::new(
 )
 .with_alternatives(Alternatives {
     later: &[Later::new("filmic", "4.0")],
+    stand_in: "reinhard 4, 1.2, 6",
     ..Alternatives::new("tone mapping", &[&LINEAR, &REINHARD, &CAMERA])
 })
 .with_example(

@@ -191,6 +191,15 @@ impl Spectrum {
         }
     }
 
+    /// The product of two spectra, of which one has a unit at most: exact where one is uniform, else at steps of 1 nm.
+    #[must_use]
+    pub fn times(&self, other: &Self) -> Self {
+        match (self, other) {
+            (Self::Uniform(v), spectrum) | (spectrum, Self::Uniform(v)) => spectrum.scaled(*v),
+            _ => Self::Table(Table::on_grid(|lambda| self.at(lambda) * other.at(lambda))),
+        }
+    }
+
     /// The spectrum with its values limited to `[lo, hi]`: [0, 1] for an albedo, [-0.99, 0.99] for
     /// a mean cosine, from 0 up for a coefficient or emission. A table's knots are clamped; a
     /// smooth kind that goes beyond the limits becomes a table at 1 nm. A NaN becomes `lo`.

@@ -1,0 +1,160 @@
+//! `background_settings`: the surroundings as a material that emits.
+
+use super::Context;
+use super::environment::{self, Surroundings};
+use super::materials::MaterialTable;
+use crate::codes;
+use indigo_decl::Node;
+use indigo_diag::Diagnostic;
+use indigo_formats::image;
+use indigo_light::DistantLight;
+use indigo_light::kinds::Distant;
+use indigo_light::kinds::background::Background;
+use indigo_light::kinds::env_map::Layout;
+use indigo_math::Vec3d;
+use indigo_spectrum::{Spectrum, read};
+use indigo_texture::Curve;
+use std::f64::consts::{PI, TAU};
+
+/// The lights of a background, whose `sum` may name materials of the scene.
+pub(super) fn lights(settings: &Node, materials: &MaterialTable, context: &mut Context) -> Vec<DistantLight> {
+    let scale = settings.node("emission_scale").map(|scale| {
+        scale.disregard_fields(&["material_name", "measure"]);
+        (scale, scale.real("value"))
+    });
+    let material = settings.node("background_material").and_then(|b| b.node("material"));
+    let Some(material) = material else { return vec![] };
+    material.disregard_fields(&["name", "uid"]);
+    let Some(kind) = material.alternative() else { return vec![] };
+    let mut lights = vec![];
+    for (kind, weight) in shining(kind, materials, context) {
+        if kind.block.name == "sunsky" {
+            if weight != 1.0 || scale.is_some() {
+                let message = "sun and sky keep their brightness: <weight> and <emission_scale> have no effect on a <sunsky>";
+                context.sink.push(Diagnostic::warning(codes::IDLE_SCALE, kind.span, message));
+            }
+            lights.extend(environment::skylight(kind, context));
+            continue;
+        }
+        if let Some(even) = even_light(kind, weight, context) {
+            lights.push(even);
+        }
+    }
+    if let Some((node, luminance)) = scale {
+        scale_to(&mut lights, luminance, node, context);
+    }
+    lights
+}
+
+/// The kinds that shine in a kind of material, with the factors on their light: itself, or the parts of a sum.
+fn shining<'a>(kind: &'a Node, materials: &MaterialTable<'a>, context: &mut Context) -> Vec<(&'a Node, f64)> {
+    if kind.block.name != "sum" {
+        return vec![(kind, 1.0)];
+    }
+    let mut parts = vec![];
+    for mat in kind.nodes("mat") {
+        let (name, weight) = (mat.text("mat_name"), mat.real("weight"));
+        match materials.kind_of(&name.value) {
+            Some(part) if part.block.name != "sum" => parts.push((part, weight)),
+            // A name that is not there is reported with all others.
+            None => {}
+            Some(part) => {
+                let message = "a <sum> in a <sum> is not rendered: it is left out";
+                context.sink.push(Diagnostic::warning(codes::STANDS_IN, part.span, message));
+            }
+        }
+    }
+    parts
+}
+
+/// What a material emits, all round.
+fn even_light(kind: &Node, weight: f64, context: &mut Context) -> Option<DistantLight> {
+    // Of a material that surrounds everything only the emission is to be seen.
+    kind.disregard();
+    let field = |name: &str| kind.block.declares(name).then(|| kind.node(name)).flatten();
+    let base = field("base_emission");
+    if let Some(texture) = field("emission_texture") {
+        let gain = base.map_or(Spectrum::uniform(1.0), |base| read::emission(base, context.sink));
+        let Spectrum::Uniform(gain) = gain else {
+            let message = "the surroundings have the colours of their picture: the shape of <base_emission> is left out";
+            context.sink.push(Diagnostic::warning(codes::STANDS_IN, kind.span, message));
+            let mean = gain.luminance() / Spectrum::uniform(1.0).luminance();
+            return picture(texture, mean * weight, context);
+        };
+        return picture(texture, gain * weight, context);
+    }
+    let colour = field("emission");
+    let radiance = match (base, colour) {
+        (Some(base), Some(colour)) => {
+            read::emission(base, context.sink).times(&read::factor(colour, context.sink))
+        }
+        (Some(only), None) | (None, Some(only)) => read::emission(only, context.sink),
+        (None, None) => return None,
+    };
+    Some(Background(radiance.scaled(weight)).into())
+}
+
+/// A picture of the surroundings, given as a texture.
+fn picture(texture: &Node, gain: f64, context: &mut Context) -> Option<DistantLight> {
+    texture.disregard();
+    let path = texture.text("path");
+    let [exponent, a, b, c] = ["exponent", "a", "b", "c"].map(|field| texture.real(field));
+    let turn = turn_of(texture, context);
+    let file = context.read(&path.value, path.span)?;
+    let image = image::decode(&file.path, &file.bytes);
+    let surroundings = Surroundings {
+        layout: if turn == 0.0 { Layout::LatLong } else { Layout::Turned(turn as indigo_math::Real) },
+        curve: Some(Curve { exponent, a, b, c }),
+        gain,
+    };
+    surroundings.env_map(image, &file.path, path.span, context).map(DistantLight::from)
+}
+
+/// How far a picture is turned about the z axis, to the left, in parts of a full turn.
+fn turn_of(texture: &Node, context: &mut Context) -> f64 {
+    let spherical = texture.node("tex_coord_generation").and_then(|t| t.node("spherical"));
+    let rotation = spherical.and_then(|s| s.node("rotation")).and_then(|r| r.node("axis_rotation"));
+    let Some(rotation) = rotation else { return 0.0 };
+    let (axis, angle) = (Vec3d::from(rotation.vec3("axis")).try_normalized(), rotation.real("angle"));
+    match axis {
+        Some(axis) if axis.x.abs().max(axis.y.abs()) < 1e-6 => axis.z.signum() * angle / TAU,
+        _ if angle == 0.0 => 0.0,
+        _ => {
+            let message = "surroundings are turned about the z axis alone: this turn is left out";
+            context.sink.push(Diagnostic::warning(codes::STANDS_IN, rotation.span, message));
+            0.0
+        }
+    }
+}
+
+/// Brings even lights and pictures to a mean luminance (cd/m²) over all directions.
+fn scale_to(lights: &mut Vec<DistantLight>, luminance: f64, node: &Node, context: &mut Context) {
+    let scalable =
+        |light: &DistantLight| matches!(light, DistantLight::Background(_) | DistantLight::EnvMap(_));
+    let total: f64 = lights.iter().filter(|l| scalable(l)).map(Distant::total_luminance).sum();
+    let factor = luminance * 4.0 * PI / total;
+    if !lights.iter().any(scalable) {
+        return;
+    }
+    if !factor.is_finite() {
+        context.sink.push(
+            Diagnostic::error(
+                codes::NO_FLUX,
+                node.span,
+                "surroundings without light cannot be scaled to a luminance",
+            )
+            .expected("expected a spectrum with visible light"),
+        );
+        return;
+    }
+    for light in lights {
+        match light {
+            DistantLight::Background(even) => {
+                even.0 = even.0.scaled(factor);
+                read::refuse_excess(&even.0, node.span, context.sink);
+            }
+            DistantLight::EnvMap(map) => *map = map.clone().scaled(factor),
+            _ => {}
+        }
+    }
+}

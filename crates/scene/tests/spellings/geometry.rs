@@ -1,0 +1,78 @@
+//! Geometry and cameras: models by uid, their own materials, keyframes.
+
+use super::common::*;
+
+fn of(models: &str) -> String {
+    let materials = ["m", "n"].map(|name| {
+        let uid = if name == "m" { 1 } else { 2 };
+        let albedo = 0.25 * f64::from(uid);
+        format!("<material><uid>{uid}</uid><name>{name}</name><diffuse><albedo_spectrum><uniform><value>{albedo}</value></uniform></albedo_spectrum></diffuse></material>")
+    });
+    format!("{CAMERA}{LIGHT}{MESH}{}{models}", materials.concat())
+}
+
+#[test]
+fn models_go_by_uid_and_have_materials_of_their_own() {
+    let new = |materials: &str| {
+        of(&format!(
+            "<model2><name>a thing</name><uid>9</uid><pos>1 2 3</pos><scale>0.5</scale><rotation><matrix>1 0 0 0 1 0 0 0 1 0 0 0</matrix></rotation><geometry_uid>7</geometry_uid>{materials}</model2>"
+        ))
+    };
+    let by_uid = "<materials><material_uid>1</material_uid><material_uid>2</material_uid></materials>";
+    let swapped = "<materials><material_uid>2</material_uid><material_name>m</material_name></materials>";
+    assert_same([&of(MODEL), &new(by_uid), &new(swapped)]);
+    assert_same([&of(MODEL), &new(""), &new(swapped)]);
+    let short = "<materials><material_uid>1</material_uid></materials>";
+    scene_with(&new(short), &["W0318 the mesh has 2 materials, and <materials> lists 1"]);
+}
+
+#[test]
+fn a_keyframe_takes_the_place_of_a_position_and_turns_what_has_been_turned() {
+    let old = "<model><pos>1 2 3</pos><scale>2</scale><rotation><matrix>0 -1 0 1 0 0 0 0 1</matrix></rotation><mesh_name>tri</mesh_name></model>";
+    let key = |time: f64, pos: &str, angle: f64| {
+        format!(
+            "<keyframe><time>{time}</time><pos>{pos}</pos><rotation_quaternion><axis>0 0 5</axis><angle>{angle}</angle></rotation_quaternion></keyframe>"
+        )
+    };
+    let new = |keys: &str| {
+        format!(
+            "<model>{keys}<scale>2</scale><rotation><matrix>0 -1 0 1 0 0 0 0 1</matrix></rotation><mesh_name>tri</mesh_name></model>"
+        )
+    };
+    let still = new(&key(0.0, "1 2 3", 0.0));
+    assert_same([&of(old), &of(&still), &of(&new(&key(0.0, "1 2 4", 0.0)))]);
+    // Twice the same is no motion.
+    assert_same([&of(old), &of(&new(&(key(0.0, "1 2 3", 0.0) + &key(1.0, "1 2 3", 0.0)))), &of("")]);
+    // A quarter turn clockwise undoes the one of the matrix.
+    let corner = |text: &str, expected: &[&str]| {
+        let scene = scene_with(&of(text), expected);
+        let indigo_geom::Object::Mesh { transform, .. } = scene.accel.objects()[0] else { panic!("a mesh") };
+        transform.vector(indigo_math::Vec3d::new(1.0, 0.0, 0.0)).to_array()
+    };
+    let turned = corner(&new(&key(0.0, "1 2 3", std::f64::consts::FRAC_PI_2)), &[]);
+    assert!((turned[0] - 2.0).abs() < 1e-12 && turned[1].abs() < 1e-12, "{turned:?}");
+    // What moves stands where it is when the shutter opens, which is said once for all.
+    let moving = new(&(key(-1.0, "0 2 3", 0.0) + &key(1.0, "2 2 3", 0.0)));
+    let warning = "W0317 motion is not rendered: the model stands";
+    let twice = scene_with(&of(&format!("{moving}{moving}")), &[warning]);
+    let once = scene_with(&of(&format!("{old}{old}")), &[]);
+    assert_eq!(dump(&twice), dump(&once));
+}
+
+#[test]
+fn a_camera_may_have_a_keyframe() {
+    let scene = |camera: &str| of(MODEL).replace(CAMERA, camera);
+    let key = |angle: f64| {
+        format!(
+            "<keyframe><time>0</time><pos>0 -2 1</pos><rotation_quaternion><axis>0 0 1</axis><angle>{angle}</angle></rotation_quaternion></keyframe>"
+        )
+    };
+    let keyed = |angle: f64| CAMERA.replace("<pos>0 -2 1</pos>", &key(angle));
+    assert_same([&scene(CAMERA), &scene(&keyed(0.0)), &scene(&keyed(0.1))]);
+    // Clockwise seen from above: towards +x.
+    let scene = scene_with(&scene(&keyed(0.1)), &[]);
+    let forwards = scene.camera.forwards();
+    assert!((forwards.x - 0.1_f32.sin()).abs() < 1e-6 && forwards.y > 0.9, "{forwards:?}");
+    let neither = findings(&loaded(&of(MODEL).replace("<pos>0 -2 1</pos>", "")));
+    assert!(neither[0].1.starts_with("E0201 <camera> has none of <pos>, <keyframe>"), "{neither:?}");
+}

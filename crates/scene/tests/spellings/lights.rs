@@ -1,0 +1,258 @@
+//! Light: materials that emit, what scales them, and surroundings in the form of a material.
+
+use super::common::*;
+use std::f64::consts::PI;
+
+/// A square of the material `m` alone, of 1 m².
+const SQUARE: &str = "<mesh><name>square</name><embedded><expose_uv_set><index>0</index><name>default</name></expose_uv_set><vertex pos=\"0 0 0\" uv0=\"0 0\"/><vertex pos=\"1 0 0\" uv0=\"1 0\"/><vertex pos=\"1 1 0\" uv0=\"1 1\"/><vertex pos=\"0 1 0\" uv0=\"0 1\"/><triangle_set><material_name>m</material_name><tri>0 1 2</tri><tri>0 2 3</tri></triangle_set></embedded></mesh>";
+const PLACE: &str = "<pos>1 2 3</pos><scale>0.5</scale><rotation><matrix>1 0 0 0 -1 0 0 0 -1</matrix></rotation><mesh_name>square</mesh_name>";
+const BODY: &str = "<blackbody><temperature>3000</temperature><gain>1e-3</gain></blackbody>";
+
+/// A scene whose material `m` has this emission, with a placed square.
+fn of(emission: &str, placed: &str) -> String {
+    let kind = GREY.replace("</diffuse>", &format!("{emission}</diffuse>"));
+    format!("{CAMERA}{SQUARE}{}{placed}", material("m", &kind))
+}
+
+/// With the square as a mesh light.
+fn meshlight(more: &str) -> String {
+    of("", &format!("<meshlight>{PLACE}<spectrum>{BODY}</spectrum>{more}</meshlight>"))
+}
+
+/// With the square as a model whose material emits that spectrum.
+fn model(emission: &str, more: &str) -> String {
+    let base = format!("<base_emission><constant>{BODY}</constant></base_emission>");
+    of(&(base + emission), &format!("<model>{PLACE}{more}</model>"))
+}
+
+#[test]
+fn a_model_of_an_emitting_material_is_a_mesh_light() {
+    let dimmer = "<emission><constant><rgb><rgb>0.5 0.5 0.5</rgb></rgb></constant></emission>";
+    assert_same([&meshlight(""), &model("", ""), &model(dimmer, "")]);
+    let white = "<emission><constant><rgb><rgb>1 1 1</rgb></rgb></constant></emission><layer>0</layer>";
+    assert_same([&meshlight(""), &model(white, ""), &model(dimmer, "")]);
+    // Without a base the emission is the radiance.
+    let alone =
+        of(&format!("<emission><constant>{BODY}</constant></emission>"), &format!("<model>{PLACE}</model>"));
+    assert_same([&meshlight(""), &alone, &model(dimmer, "")]);
+    let map = "<path>a.bmp</path><exponent>1</exponent><b>2</b>";
+    let textured = format!(
+        "<texture>{map}</texture><emission><texture><texture_index>0</texture_index></texture></emission>"
+    );
+    assert_same([&meshlight(&format!("<texture>{map}</texture>")), &model(&textured, ""), &model("", "")]);
+}
+
+#[test]
+fn emission_scales_are_fluxes() {
+    let area = 0.25;
+    let by_flux = |flux: f64| {
+        meshlight(&format!(
+            "<efficacy_scale><power_drawn>{flux}</power_drawn><overall_luminous_efficacy>1</overall_luminous_efficacy></efficacy_scale>"
+        ))
+    };
+    let scaled = |measure: &str| {
+        model(
+            "",
+            &format!(
+                "<emission_scale><material_name>m</material_name><measure>{measure}</measure><value>40</value></emission_scale>"
+            ),
+        )
+    };
+    for (measure, flux) in [
+        ("luminous_flux", 40.0),
+        ("luminous_intensity", PI * 40.0),
+        ("luminance", PI * area * 40.0),
+        ("luminous_emittance", area * 40.0),
+    ] {
+        assert_same([&by_flux(flux), &scaled(measure), &by_flux(1.01 * flux)]);
+    }
+    // Of a material that does not shine.
+    let scale = "<emission_scale><material_name>m</material_name><measure>luminance</measure><value>1</value></emission_scale>";
+    let dark = of("", &format!("{LIGHT}<model>{PLACE}{scale}</model>"));
+    scene_with(&dark, &["W0321 <emission_scale> has no effect: m emits nothing"]);
+    // Of one that is black there is nothing to scale, and it is no lamp.
+    let black = of(
+        "<base_emission><uniform><value>0</value></uniform></base_emission>",
+        &format!("{LIGHT}<model>{PLACE}</model>"),
+    );
+    assert_eq!(
+        dump(&scene_with(&black, &[])),
+        dump(&scene_with(&of("", &format!("{LIGHT}<model>{PLACE}</model>")), &[]))
+    );
+}
+
+#[test]
+fn profiles_are_of_a_material_and_may_be_scaled() {
+    let profile = "<path>lamp.ies</path>";
+    let old = meshlight(&format!("<ies_profile>{profile}</ies_profile>"));
+    let of_m = format!("<ies_profile><material_name>m</material_name>{profile}</ies_profile>");
+    let dim = "<emission_scale><material_name>m</material_name><measure>luminous_flux</measure><value>10</value></emission_scale>";
+    assert_same([&old, &model("", &of_m), &model("", &format!("{of_m}{dim}"))]);
+}
+
+#[test]
+fn layers_dim_and_switch_off() {
+    let settings = |scale: &str| {
+        format!(
+            "<renderer_settings><layer_setting/><layer_setting><name>lamps</name>{scale}</layer_setting></renderer_settings>"
+        )
+    };
+    // Settings are one element: the test's own come first and are replaced.
+    let with = |scale: &str| {
+        let scene = model("<layer>1</layer>", "");
+        scene + LIGHT + &settings(&format!("<enabled>true</enabled><layer_scale>{scale}</layer_scale>"))
+    };
+    let loaded_with = |elements: &str| {
+        let loaded = loaded(elements);
+        let found = findings(&loaded);
+        assert!(found.len() == 1 && found[0].1.starts_with("W0103"), "{found:?}");
+        dump(&loaded.scene.expect("a scene"))
+    };
+    let white = "<rgb><rgb>1 1 1</rgb><gain>1</gain></rgb>";
+    let half = "<rgb><rgb>1 1 1</rgb><gain>0.5</gain></rgb>";
+    let dimmed =
+        model("<emission><constant><uniform><value>0.5</value></uniform></constant></emission>", "") + LIGHT;
+    let settings_of_none = settings("");
+    assert_eq!(loaded_with(&with(half)), loaded_with(&(dimmed + &settings_of_none)));
+    assert_ne!(loaded_with(&with(half)), loaded_with(&with(white)));
+    let off = model("<layer>1</layer>", "") + LIGHT + &settings("<enabled>false</enabled>");
+    let dark = of("", &format!("<model>{PLACE}</model>")) + LIGHT + &settings_of_none;
+    assert_eq!(loaded_with(&off), loaded_with(&dark));
+}
+
+#[test]
+fn of_a_mesh_with_several_materials_the_emitting_parts_are_lamps() {
+    let lit = GREY.replace("</diffuse>", &format!("<base_emission>{BODY}</base_emission></diffuse>"));
+    let scene = |n: &str| format!("{CAMERA}{LIGHT}{MESH}{MODEL}{}{}", material("m", GREY), material("n", n));
+    let (whole, parts) = (scene_with(&scene(GREY), &[]), scene_with(&scene(&lit), &[]));
+    assert_eq!((whole.accel.objects().len(), parts.accel.objects().len()), (1, 2));
+    let triangles = |scene: &indigo_scene::Scene| {
+        let of = |o: &indigo_geom::Object| match o {
+            indigo_geom::Object::Mesh { mesh, .. } => scene.accel.meshes()[*mesh as usize].triangles().len(),
+            _ => 0,
+        };
+        scene.accel.objects().iter().map(of).collect::<Vec<_>>()
+    };
+    assert_eq!((triangles(&whole), triangles(&parts)), (vec![2], vec![1, 1]));
+    assert_eq!((whole.lights.len(), parts.lights.len()), (1, 2));
+    // Each part has the corners that it had.
+    let bounds = |scene: &indigo_scene::Scene| scene.accel.bounds();
+    assert_eq!(format!("{:?}", bounds(&whole)), format!("{:?}", bounds(&parts)));
+}
+
+#[test]
+fn what_cannot_shine_is_told() {
+    let lit = GREY.replace("</diffuse>", &format!("<base_emission>{BODY}</base_emission></diffuse>"));
+    let sphere = "<sphere><center>0 0 0</center><radius>1</radius><material_name>m</material_name></sphere>";
+    scene_with(
+        &format!("{CAMERA}{LIGHT}{}{sphere}", material("m", &lit)),
+        &["W0319 a sphere of an emitting material gives no light"],
+    );
+    let blend = "<blend><blend_factor>0.5</blend_factor><a_name>m</a_name><b_name>n</b_name></blend>";
+    let blended = format!(
+        "{CAMERA}{LIGHT}{}{}{}{}",
+        material("m", &lit),
+        material("n", GREY),
+        material("b", blend),
+        sphere.replace(">m<", ">b<")
+    );
+    scene_with(&blended, &["W0319 a blend of an emitting material gives no light"]);
+    let other = "<coating><absorption><constant><uniform><value>0</value></uniform></constant></absorption><substrate_material_name>m</substrate_material_name></coating>";
+    let coated = |kind: &str| {
+        format!(
+            "{CAMERA}{LIGHT}{}{}{}",
+            material("m", GREY),
+            material("c", kind),
+            sphere.replace(">m<", ">c<")
+        )
+    };
+    let warning = "W0320 <coating> is of a later format version and not rendered: m stands in";
+    scene_with(&coated(other), &[warning]);
+    scene_with(
+        &coated(
+            "<fast_sss><albedo><constant><uniform><value>0.5</value></uniform></constant></albedo></fast_sss>",
+        ),
+        &["W0320 <fast_sss>"],
+    );
+}
+
+fn background(kind: &str, scale: &str) -> String {
+    let named = "<material><name>sky</name><sunsky><sundir>0 0.6 1</sundir><turbidity>3</turbidity></sunsky></material><material><name>even</name><diffuse><base_emission><uniform><value>5</value></uniform></base_emission></diffuse></material>";
+    format!(
+        "{CAMERA}{SQUARE}{}<model>{PLACE}</model>{named}<background_settings><background_material><material><name>background</name>{kind}</material></background_material>{scale}</background_settings>",
+        material("m", GREY)
+    )
+}
+
+fn old_background(light: &str) -> String {
+    format!("{CAMERA}{SQUARE}{}<model>{PLACE}</model>{light}", material("m", GREY))
+}
+
+#[test]
+fn a_background_may_be_an_emitting_material() {
+    let even = "<diffuse><albedo_spectrum><uniform><value>0</value></uniform></albedo_spectrum><base_emission><constant><uniform><value>5</value></uniform></constant></base_emission></diffuse>";
+    let old =
+        old_background("<background><spectrum><uniform><value>5</value></uniform></spectrum></background>");
+    let other = background(&even.replace(">5<", ">6<"), "");
+    assert_same([&old, &background(even, ""), &other]);
+    let skylight = |sun: &str| {
+        old_background(&format!(
+            "<skylight><sundir>{sun}</sundir><turbidity>3</turbidity><model>preetham</model></skylight>"
+        ))
+    };
+    let sunsky = "<sunsky><sundir>0 0.6 1</sundir><turbidity>3</turbidity><model>original</model></sunsky>";
+    assert_same([&skylight("0 0.6 1"), &background(sunsky, ""), &skylight("0.1 0.6 1")]);
+    let captured = sunsky.replace("original", "captured-simulation");
+    scene_with(&background(&captured, ""), &["W0320 the sky of <captured-simulation> is not rendered"]);
+    let sum = |names: [&str; 2]| {
+        let mats = names.map(|name| format!("<mat><mat_name>{name}</mat_name><weight>1</weight></mat>"));
+        background(&format!("<sum>{}</sum>", mats.concat()), "")
+    };
+    let both = "<skylight><sundir>0 0.6 1</sundir><turbidity>3</turbidity><model>preetham</model></skylight>";
+    let old = dump(&scene_with(
+        &old_background(&format!(
+            "{both}<background><spectrum><uniform><value>5</value></uniform></spectrum></background>"
+        )),
+        &[],
+    ));
+    // In the other order, since their order is that of the lights.
+    assert_eq!(old, dump(&scene_with(&sum(["even", "sky"]), &[])));
+}
+
+#[test]
+fn surroundings_may_be_a_texture_that_is_turned_and_scaled() {
+    let map = |more: &str, texture: &str| {
+        background(
+            &format!(
+                "<diffuse><texture><path>sky.hdr</path><exponent>1</exponent>{texture}</texture><base_emission><constant><uniform><value>3</value></uniform></constant></base_emission><emission><texture><texture_index>0</texture_index></texture></emission></diffuse>"
+            ),
+            more,
+        )
+    };
+    let old = |gain: &str| {
+        old_background(&format!(
+            "<env_map><latlong><path>sky.hdr</path><gain>{gain}</gain></latlong></env_map>"
+        ))
+    };
+    assert_same([&old("3"), &map("", ""), &old("2")]);
+    assert_same([&old("6"), &map("", "<b>2</b>"), &old("2")]);
+    let turned = |axis: &str, angle: f64| {
+        map(
+            "",
+            &format!(
+                "<tex_coord_generation><spherical><rotation><axis_rotation><axis>{axis}</axis><angle>{angle}</angle></axis_rotation></rotation></spherical></tex_coord_generation>"
+            ),
+        )
+    };
+    assert_same([&turned("0 0 2", 0.5), &turned("0 0 -1", -0.5), &old("3")]);
+    scene_with(&turned("1 0 0", 0.5), &["W0320 surroundings are turned about the z axis alone"]);
+    // To a luminance: that of the mean of all directions.
+    let scale = "<emission_scale><material_name>background</material_name><measure>luminance</measure><value>100</value></emission_scale>";
+    let even = "<diffuse><base_emission><uniform><value>5</value></uniform></base_emission></diffuse>";
+    let radiance = surroundings(&scene_with(&background(even, scale), &[]));
+    let unit = indigo_spectrum::Spectrum::uniform(1.0).luminance();
+    assert!((radiance * unit / 100.0 - 1.0).abs() < 1e-6, "{radiance}");
+    let lit = scene_with(&map(scale, ""), &[]);
+    let lit_twice = scene_with(&map(&scale.replace("100", "200"), ""), &[]);
+    assert!((surroundings(&lit_twice) / surroundings(&lit) - 2.0).abs() < 1e-5);
+}

@@ -1,0 +1,7 @@
+//! Scenes in the spelling of later format versions are the same scenes: compared exactly, as they are lowered.
+
+mod common;
+mod geometry;
+mod lights;
+mod materials;
+mod real;

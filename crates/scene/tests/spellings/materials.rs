@@ -1,0 +1,223 @@
+//! Materials: `constant`, `texture`, lists of textures, new names, uids.
+
+use super::common::*;
+
+/// A scene with a material `m` of a kind.
+fn of(kind: &str) -> String {
+    of_material(&material("m", kind))
+}
+
+fn of_material(materials: &str) -> String {
+    format!("{CAMERA}{LIGHT}{MESH}{MODEL}{}{materials}", material("n", GREY))
+}
+
+#[track_caller]
+fn assert_same_kinds(kinds: [&str; 3]) {
+    let [old, new, other] = kinds.map(of);
+    assert_same([&old, &new, &other]);
+}
+
+const TX: &str = "<uv_set>albedo</uv_set><path>a.bmp</path><exponent>2.2</exponent><b>0.9</b>";
+const BUMP_TX: &str = "<uv_set>other</uv_set><path>b.bmp</path><exponent>1</exponent><b>0.001</b>";
+
+#[test]
+fn a_constant_may_stand_in_a_wrapper_under_the_new_name() {
+    let spectrum = "<rgb><rgb>0.2 0.4 0.6</rgb><gamma>2.2</gamma></rgb>";
+    for (kind, old, new) in [
+        ("diffuse", "albedo_spectrum", "albedo"),
+        ("diffuse_transmitter", "albedo_spectrum", "albedo"),
+        ("oren_nayar", "albedo_spectrum", "albedo"),
+        ("phong", "diffuse_albedo_spectrum", "diffuse_albedo"),
+        ("phong", "specular_reflectivity_spectrum", "specular_reflectivity"),
+    ] {
+        let rest = match (kind, new) {
+            ("oren_nayar", _) => "<sigma><constant>0.3</constant></sigma>",
+            (_, "diffuse_albedo") => "<ior>1.5</ior><exponent><constant>90</constant></exponent>",
+            ("phong", _) => "<exponent>90</exponent>",
+            _ => "",
+        };
+        let plain = rest.replace("<constant>", "").replace("</constant>", "");
+        assert_same_kinds([
+            &format!("<{kind}><{old}>{spectrum}</{old}>{plain}</{kind}>"),
+            &format!("<{kind}><{new}><constant>{spectrum}</constant></{new}>{rest}</{kind}>"),
+            &format!(
+                "<{kind}><{new}><constant><uniform><value>0.3</value></uniform></constant></{new}>{rest}</{kind}>"
+            ),
+        ]);
+    }
+}
+
+#[test]
+fn textures_are_named_by_their_number_in_the_list_or_stand_in_their_place() {
+    let old = format!(
+        "<phong><ior>1.5</ior><albedo_texture>{TX}</albedo_texture><exponent_map>{BUMP_TX}</exponent_map><bump_map>{BUMP_TX}</bump_map></phong>"
+    );
+    let list = |first: &str, second: &str| {
+        // One of the list comes after its user, as exporters write.
+        format!(
+            "<phong><texture>{first}</texture><ior>1.5</ior><diffuse_albedo><texture><texture_index>0</texture_index></texture></diffuse_albedo><exponent><texture><texture_index>1</texture_index></texture></exponent><bump><texture><texture_index>1</texture_index></texture></bump><texture>{second}</texture></phong>"
+        )
+    };
+    let inline = format!(
+        "<phong><ior>1.5</ior><diffuse_albedo><texture>{TX}</texture></diffuse_albedo><exponent><texture>{BUMP_TX}</texture></exponent><bump><texture>{BUMP_TX}</texture></bump></phong>"
+    );
+    let swapped = list(BUMP_TX, TX);
+    assert_same_kinds([&old, &list(TX, BUMP_TX), &swapped]);
+    assert_same_kinds([&old, &inline, &swapped]);
+    // A number that the list does not reach.
+    let beyond = "<diffuse><texture><path>a.bmp</path></texture><albedo><texture><texture_index>1</texture_index></texture></albedo></diffuse>";
+    let found = findings(&loaded(&of(beyond)));
+    assert!(found.iter().any(|(_, text)| text.starts_with("E0203 <texture_index>")), "{found:?}");
+}
+
+#[test]
+fn uv_sets_go_by_number_or_are_the_first() {
+    let textured =
+        |set: &str| format!("<diffuse><albedo_texture>{set}<path>a.bmp</path></albedo_texture></diffuse>");
+    let [first, second] = ["albedo", "other"].map(|name| textured(&format!("<uv_set>{name}</uv_set>")));
+    assert_same_kinds([&second, &textured("<uv_set_index>1</uv_set_index>"), &first]);
+    assert_same_kinds([&first, &textured(""), &second]);
+    let found = findings(&loaded(&of(&textured("<uv_set_index>2</uv_set_index>"))));
+    assert!(found[0].1.starts_with("E0307"), "{found:?}");
+}
+
+#[test]
+fn roughness_is_the_width_that_an_exponent_stands_for() {
+    // √(2 / (n + 2)) of 6 is a half.
+    let phong = |gloss: &str| format!("<phong><ior>1.5</ior>{gloss}</phong>");
+    let [old, other] = [6, 7].map(|n| phong(&format!("<exponent>{n}</exponent>")));
+    assert_same_kinds([&old, &phong("<roughness><constant>0.5</constant></roughness>"), &other]);
+    // It counts before an exponent.
+    assert_same_kinds([&old, &phong("<exponent>100</exponent><roughness>0.5</roughness>"), &other]);
+    let media = "<medium><name>glass</name><uid>3</uid><basic><ior>1.5</ior></basic></medium>";
+    let frosted = |gloss: &str| {
+        let kind = format!(
+            "<glossy_transparent><internal_medium_name>glass</internal_medium_name>{gloss}</glossy_transparent>"
+        );
+        of(&kind) + media
+    };
+    let [old, new, other] = [
+        "<exponent>6</exponent>",
+        "<roughness><constant>0.5</constant></roughness>",
+        "<exponent>7</exponent>",
+    ]
+    .map(frosted);
+    assert_same([&old, &new, &other]);
+}
+
+#[test]
+fn a_fresnel_scale_of_one_changes_nothing_and_another_does() {
+    let phong = |more: &str| format!("<phong><ior>1.5</ior><exponent>6</exponent>{more}</phong>");
+    let scale = |v: &str| phong(&format!("<fresnel_scale><constant>{v}</constant></fresnel_scale>"));
+    assert_same_kinds([&phong(""), &scale("1"), &scale("0.5")]);
+    let metal = |more: &str| {
+        format!(
+            "<phong><exponent>6</exponent><specular_reflectivity><constant><uniform><value>0.8</value></uniform></constant></specular_reflectivity>{more}</phong>"
+        )
+    };
+    let half = "<fresnel_scale>0.5</fresnel_scale>";
+    assert_same_kinds([&metal(""), &metal("<fresnel_scale>1</fresnel_scale>"), &metal(half)]);
+}
+
+#[test]
+fn blends_and_their_steps() {
+    let blend = |kind: &str| {
+        of_material(
+            &(material("m", kind)
+                + "<material><uid>12</uid><name>o</name><phong><ior>1.5</ior><exponent>9</exponent></phong></material>"),
+        )
+    };
+    let names = "<a_name>n</a_name><b_name>o</b_name>";
+    let old = blend(&format!("<blend><blend_factor>0.3</blend_factor>{names}</blend>"));
+    let new = blend(
+        "<blend><blend><constant>0.3</constant></blend><step_blend>false</step_blend><a_name>n</a_name><b_uid>12</b_uid></blend>",
+    );
+    let stepped = blend(&format!(
+        "<blend><blend><constant>0.3</constant></blend><step_blend>true</step_blend>{names}</blend>"
+    ));
+    assert_same([&old, &new, &stepped]);
+    let none = blend(&format!("<blend><blend_factor>0</blend_factor>{names}</blend>"));
+    assert_same([&none, &stepped, &old]);
+    let map = |form: &str, step: &str| {
+        blend(&format!("<blend><texture>{BUMP_TX}</texture>{form}{step}{names}</blend>"))
+    };
+    let listed = "<blend><texture><texture_index>0</texture_index></texture></blend>";
+    let old = blend(&format!("<blend><blend_map>{BUMP_TX}</blend_map>{names}</blend>"));
+    assert_same([&old, &map(listed, ""), &map(listed, "<step_blend>true</step_blend>")]);
+}
+
+#[test]
+fn media_go_by_uid_and_have_coefficients_under_new_names() {
+    let scene = |interface: &str, medium: &str| {
+        let medium =
+            format!("<medium><name>milk</name><uid>44</uid><precedence>9</precedence>{medium}</medium>");
+        let other = "<medium><name>ice</name><uid>45</uid><precedence>8</precedence><basic><ior>1.3</ior></basic></medium>";
+        of(&format!("<specular>{interface}<transparent>true</transparent></specular>")) + &medium + other
+    };
+    let by_name = "<internal_medium_name>milk</internal_medium_name>";
+    let old = scene(
+        by_name,
+        "<basic><ior>1.4</ior><absorption_coefficient_spectrum><rgb><rgb>1 2 3</rgb></rgb></absorption_coefficient_spectrum><subsurface_scattering><scattering_coefficient_spectrum><uniform><value>5</value></uniform></scattering_coefficient_spectrum><phase_function><uniform/></phase_function></subsurface_scattering></basic>",
+    );
+    let new = "<basic><ior>1.4</ior><absorption_coefficient><constant><rgb><rgb>1 2 3</rgb></rgb></constant></absorption_coefficient><subsurface_scattering><scattering_coefficient><constant><uniform><value>5</value></uniform></constant></scattering_coefficient><phase_function><uniform/></phase_function></subsurface_scattering></basic>";
+    let by_uid = "<internal_medium_uid>44</internal_medium_uid>";
+    assert_same([&old, &scene(by_uid, new), &scene("<internal_medium_uid>45</internal_medium_uid>", new)]);
+    // Both together, as some exporters write, and without `basic`.
+    let inside = new.replace("<basic>", "").replace("</basic>", "");
+    let both = scene(&format!("{by_name}{by_uid}"), &inside);
+    assert_same([&old, &both, &scene("<internal_medium_uid>45</internal_medium_uid>", &inside)]);
+    let found = findings(&loaded(&scene("<internal_medium_uid>46</internal_medium_uid>", new)));
+    assert!(found[0].1.starts_with("E0301 there is no medium named uid 46"), "{found:?}");
+}
+
+#[test]
+fn colours_may_have_a_gain_and_tristimulus_values() {
+    let of =
+        |spectrum: &str| of(&format!("<diffuse><albedo_spectrum>{spectrum}</albedo_spectrum></diffuse>"));
+    let old = of("<rgb><rgb>0.1 0.2 0.4</rgb></rgb>");
+    let gained = of("<rgb><rgb>0.2 0.4 0.8</rgb><gain>0.5</gain></rgb>");
+    assert_same([&old, &gained, &of("<rgb><rgb>0.2 0.4 0.8</rgb></rgb>")]);
+    // White of Rec. 709 is (1, 1, 1).
+    let xyz = |gain: &str| {
+        format!(
+            "<background><spectrum><xyz><xyz>0.950470 1 1.088830</xyz><gain>{gain}</gain></xyz></spectrum></background>"
+        )
+    };
+    let luminance = |light: &str| {
+        surroundings(&scene_with(&of_material(&material("m", GREY)).replace(LIGHT, light), &[]))
+    };
+    let white = luminance("<background><spectrum><rgb><rgb>5 5 5</rgb></rgb></spectrum></background>");
+    assert!((luminance(&xyz("5")) / white - 1.0).abs() < 1e-3);
+    assert!((luminance(&xyz("4")) / white - 0.8).abs() < 1e-3);
+}
+
+#[test]
+fn what_is_not_rendered_is_named_once_with_what_stands_in() {
+    let shader = "<diffuse><albedo><shader><shader><![CDATA[def eval(vec3 pos) vec3 : pos]]></shader></shader></albedo></diffuse>";
+    let with_shader = of(shader);
+    let grey =
+        of("<diffuse><albedo_spectrum><uniform><value>0.5</value></uniform></albedo_spectrum></diffuse>");
+    let warning = "W0102 <shader> in <albedo> is of a later format version and not rendered: 0.5 stands in";
+    assert_eq!(dump(&scene_with(&with_shader, &[warning])), dump(&scene_with(&grey, &[])));
+    // A hundred materials of a kind that is not there are one warning.
+    let many: String = (0..100).map(|i| material(&format!("x{i}"), "<fabric/>")).collect();
+    let loaded = loaded(&(of("<fabric></fabric>") + &many));
+    let [one] = loaded.sink.diagnostics() else { panic!("{:?}", findings(&loaded)) };
+    assert!(one.message.ends_with("a grey diffuse surface stands in") && one.repeats == 100, "{one:?}");
+    assert!(loaded.scene.is_some());
+    // What does nothing is passed over.
+    let silent = of(
+        "<specular><internal_medium_name>air</internal_medium_name><arch_glass>false</arch_glass></specular>",
+    );
+    scene_with(&silent, &[]);
+    let loud = of(
+        "<specular><internal_medium_name>air</internal_medium_name><arch_glass>true</arch_glass></specular>",
+    );
+    scene_with(&loud, &["W0102 <arch_glass> in <specular>"]);
+    // The new name counts before the old one.
+    let both = of(
+        "<diffuse><albedo_spectrum><uniform><value>0.1</value></uniform></albedo_spectrum><albedo><constant><uniform><value>0.5</value></uniform></constant></albedo></diffuse>",
+    );
+    let warning = "W0103 <albedo_spectrum> has no effect beside <albedo>";
+    assert_eq!(dump(&scene_with(&both, &[warning])), dump(&scene_with(&grey, &[])));
+}
