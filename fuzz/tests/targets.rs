@@ -183,7 +183,9 @@ fn igi() {
         let (head, tail) = bytes.split_at(bytes.len().min(FREE.start));
         let mut file = [head, &vec![0; FREE.len()], tail].concat();
         for _ in 0..2 {
-            if let Ok(saved) = igi::read(&file) {
+            let read = igi::read(&file);
+            assert_eq!(igi::IgiFile::load(&*file, 0).unwrap().develop().is_ok(), read.is_ok());
+            if let Ok(saved) = read {
                 let pixels = saved.film.size.internal_pixels();
                 assert!(saved.film.layers.iter().all(|l| l.sums.len() == pixels));
                 assert!(saved.film.layers.iter().flat_map(|l| &l.sums).flatten().all(|v| v.is_finite()));

@@ -105,8 +105,9 @@ pub static CAMERA: Block = Block::new(
             "obstacle_map",
             Kind::Path,
             Presence::Optional,
-            "An image of dust and scratches on the lens, for the diffraction by the aperture. Has an effect only \
-             with `aperture_diffraction`. The path may also stand in a `path` inside.",
+            "An image of dust and scratches on the lens, for the diffraction by the aperture: white where nothing stands, black \
+             where no light passes. Has an effect only with `aperture_diffraction`, and none (a warning) where it is the same \
+             all over; one that covers all of the aperture is an error. The path may also stand in a `path` inside.",
         ),
         Field::new(
             "aperture_shape",

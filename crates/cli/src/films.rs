@@ -6,7 +6,7 @@ use crate::render::{denoiser, logical_cores, overwrites, program, say_missing_fo
 use crate::{BAD_INPUT, FAILED, RENDERED, paths, refuse, tell_findings, with_load_options};
 use indigo_render::output::{OutputPaths, SaveJob, write_film};
 use indigo_render::pool::with_jobs;
-use indigo_render::saved::{FilmFileError, merge_films, read_film};
+use indigo_render::saved::{FilmFileError, develop_film, merge_films};
 use indigo_scene::{DIFFRACTION_OF_RAYS, FOREGROUND_ALPHA, LoadedDevelopment, load_development};
 use std::path::{Path, PathBuf};
 
@@ -57,22 +57,30 @@ pub fn tone_map(arguments: &Arguments, console: &mut Console) -> u8 {
         return FAILED;
     }
     let Some(mut development) = loaded.development else { return BAD_INPUT };
-    let saved = match read_film(Path::new(film)) {
-        Ok(saved) => saved,
+    let developed = match develop_film(Path::new(film), &development.picture, development.size) {
+        Ok(developed) => developed,
         Err(error) => return fail(&error, console),
     };
-    if saved.film.size != development.size {
+    if developed.image.size != development.size {
         console.warn(&format!(
             "the film is {}, the scene asks for {}: the picture has the film's size",
-            saved.film.size, development.size
+            developed.image.size, development.size
         ));
     }
-    let is_true =
-        |setting| saved.record.as_ref().is_some_and(|record| record.setting(setting) == Some("true"));
-    let is_mask = is_true(FOREGROUND_ALPHA);
-    if is_mask != development.picture.foreground_alpha {
-        let (holds, asked) =
-            if is_mask { ("what hides the background, and no light", "false") } else { ("light", "true") };
+    let said = |setting| developed.record.as_ref().and_then(|record| record.setting(setting));
+    let is_true = |setting| said(setting) == Some("true");
+    if developed.record.is_some() && said(FOREGROUND_ALPHA).is_none() {
+        let taken = if development.picture.foreground_alpha { "what hides the background" } else { "light" };
+        console.warn(&format!(
+            "the film {film} does not say whether it was rendered with {FOREGROUND_ALPHA}, as it is of an older \
+             version: it is taken for {taken}, as in the scene"
+        ));
+    } else if is_true(FOREGROUND_ALPHA) != development.picture.foreground_alpha {
+        let (holds, asked) = if is_true(FOREGROUND_ALPHA) {
+            ("what hides the background, and no light", "false")
+        } else {
+            ("light", "true")
+        };
         console.error(&format!(
             "the film {film} holds {holds}, but in the scene {FOREGROUND_ALPHA} is {asked}: a film is developed \
              with this setting as it was rendered"
@@ -107,7 +115,7 @@ pub fn tone_map(arguments: &Arguments, console: &mut Console) -> u8 {
         return BAD_INPUT;
     }
     say_missing_folder(&job.paths.png, console);
-    if say_saved(&job.save(&saved), console) { RENDERED } else { FAILED }
+    if say_saved(&job.save_developed(developed), console) { RENDERED } else { FAILED }
 }
 
 /// Says what is wrong with a film; the exit status.

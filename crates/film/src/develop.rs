@@ -4,6 +4,7 @@ use crate::FilmSize;
 use crate::band::BAND_ROWS;
 use indigo_math::pages::fresh;
 use rayon::prelude::*;
+use std::convert::Infallible;
 
 /// A film developed, at internal resolution.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,19 +28,34 @@ impl XyzImage {
         counted: bool,
         develop: impl Fn(usize, &mut [[f32; 4]], &mut [bool]) + Sync,
     ) -> Self {
+        let band_pixels = BAND_ROWS * size.internal_width() as usize;
+        let band = |(): &mut (), band, out: &mut [_], missing: &mut [_]| {
+            develop(band, out, missing);
+            Ok::<_, Infallible>(())
+        };
+        let Ok(image) = Self::from_chunks(size, counted, band_pixels, || (), band);
+        image
+    }
+
+    /// The same by runs of so many pixels, whose development may fail, with room that is made once for many of them.
+    pub(crate) fn from_chunks<R, E: Send>(
+        size: FilmSize,
+        counted: bool,
+        chunk_pixels: usize,
+        room: impl Fn() -> R + Sync + Send,
+        develop: impl Fn(&mut R, usize, &mut [[f32; 4]], &mut [bool]) -> Result<(), E> + Sync,
+    ) -> Result<Self, E> {
         let mut pixels = fresh(vec![[0.0; 4]; size.internal_pixels()]);
         let mut missing = vec![counted; size.internal_pixels()];
-        let band_pixels = BAND_ROWS * size.internal_width() as usize;
-        pixels
-            .par_chunks_mut(band_pixels)
-            .zip(missing.par_chunks_mut(band_pixels))
+        let chunks = pixels.par_chunks_mut(chunk_pixels).zip(missing.par_chunks_mut(chunk_pixels));
+        chunks
             .enumerate()
-            .for_each(|(band, (out, missing))| develop(band, out, missing));
+            .try_for_each_init(room, |room, (i, (out, missing))| develop(room, i, out, missing))?;
         let mut image = Self { size, pixels, missing };
         if counted {
             image.fill_missing();
         }
-        image
+        Ok(image)
     }
 
     /// Gives each pixel without a sample the mean of the sampled ones of its output pixel.

@@ -8,7 +8,7 @@ pub struct FirstHit {
     /// Mean unit shading normal on the side that is seen, in the directions of the world; shorter than 1 where the
     /// pixel sees several, 0 in media and where it sees none.
     pub normal: [f32; 3],
-    /// Part of the rays that meet anything, from 0 to 1.
+    /// Part of the rays that meet anything, from 0 to 1: by area, as the reflectance has it.
     pub coverage: f32,
     /// Mean depth along the viewing direction of what is met, in metres; [`FirstHit::FAR`] where nothing is.
     pub depth_m: f32,

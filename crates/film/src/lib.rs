@@ -44,7 +44,7 @@ pub use filter::Filter;
 pub use first_hit::FirstHit;
 pub use layer::{Layer, LayerKind, Totals};
 pub use master::MasterFilm;
-pub use record::{FilmRecord, Mismatch, Run, SavedFilm};
+pub use record::{DevelopedFilm, FilmRecord, Mismatch, Run, SavedFilm};
 pub use sensor::Sensor;
 pub use size::FilmSize;
 pub use state::FilmState;

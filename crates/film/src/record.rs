@@ -1,7 +1,7 @@
 //! What a film is a picture of, and which random numbers went into it: what must agree before two films may
 //! be added, or one be gone on with.
 
-use crate::{FilmError, FilmState};
+use crate::{FilmError, FilmState, XyzImage};
 
 /// A run of units of work under one seed. With the seed a unit fixes all its random numbers, so that two films
 /// that share a unit hold the same samples twice: their sum would be no better, and its noise estimate wrong.
@@ -128,6 +128,15 @@ pub struct SavedFilm {
     /// The sums.
     pub film: FilmState,
     /// Where they come from; `None` for a file of another program, which can only be developed.
+    pub record: Option<FilmRecord>,
+}
+
+/// A saved film of which only the developed image is of interest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DevelopedFilm {
+    /// What [`FilmState::develop`] makes of the film.
+    pub image: XyzImage,
+    /// Where it comes from; `None` for a file of another program.
     pub record: Option<FilmRecord>,
 }
 

@@ -1,7 +1,7 @@
 //! Indigo images: what is written comes back, what is damaged is refused, other programs' files are read.
 
-use indigo_film::igi::{IgiError, read, write};
-use indigo_film::{FilmRecord, FilmSize, FilmState, LayerKind, Mismatch, Run, SavedFilm};
+use indigo_film::igi::{IgiError, IgiFile, read, write};
+use indigo_film::{DevelopedFilm, FilmRecord, FilmSize, FilmState, LayerKind, Mismatch, Run, SavedFilm};
 use indigo_math::rng::Rng;
 
 const LAYERS: [(LayerKind, &str); 2] =
@@ -9,7 +9,10 @@ const LAYERS: [(LayerKind, &str); 2] =
 
 /// A film of random sums, as `f32` additions leave them.
 fn saved(seed: u64) -> SavedFilm {
-    let size = FilmSize::new(19, 13, 3).unwrap();
+    of_size(FilmSize::new(19, 13, 3).unwrap(), seed)
+}
+
+fn of_size(size: FilmSize, seed: u64) -> SavedFilm {
     let mut film = FilmState::new(size, &LAYERS);
     let mut rng = Rng::new(seed);
     for layer in &mut film.layers {
@@ -40,6 +43,10 @@ fn bytes(saved: &SavedFilm) -> Vec<u8> {
     file
 }
 
+fn develop(file: &[u8]) -> Result<DevelopedFilm, IgiError> {
+    IgiFile::load(file, file.len() as u64).expect("bytes in memory").develop()
+}
+
 #[test]
 fn a_film_comes_back_bit_for_bit() {
     let film = saved(1);
@@ -47,6 +54,22 @@ fn a_film_comes_back_bit_for_bit() {
     let empty = FilmState::new(FilmSize::new(1, 1, 1).unwrap(), &LAYERS);
     let empty = SavedFilm { film: empty, record: Some(FilmRecord::default()) };
     assert_eq!(read(&bytes(&empty)).unwrap(), empty);
+}
+
+/// To the same bits, also where blocks end within rows and the last of them is cut off; a pixel without samples is missing.
+#[test]
+fn developing_a_file_is_developing_its_film() {
+    for (width, height) in [(1, 1), (19, 13), (151, 143)] {
+        let mut film = of_size(FilmSize::new(width, height, 2).unwrap(), 7);
+        let file = bytes(&film);
+        let developed = develop(&file).unwrap();
+        assert_eq!((developed.image, developed.record), (film.film.develop(), film.record.clone()));
+        film.film.layers.swap(0, 1);
+        let swapped = develop(&bytes(&film)).unwrap().image;
+        assert!(swapped == film.film.develop() && (width == 1 || swapped.missing.contains(&true)));
+        film.film.layers.remove(1);
+        assert_eq!(develop(&bytes(&film)).unwrap().image, film.film.develop(), "no layer of pixels");
+    }
 }
 
 /// The start of the file as another program's reader of version 1 sees it.
@@ -71,8 +94,10 @@ fn a_reader_of_version_1_finds_the_picture() {
     // Without the mark it is such a file, and develops to the same picture.
     let mut foreign = file[..5040 + 57 * 39 * 12].to_vec();
     foreign[40..52].fill(0);
+    let developed_at_once = develop(&foreign).unwrap();
     let foreign = read(&foreign).unwrap();
     assert_eq!(foreign.record, None);
+    assert_eq!((developed_at_once.image, developed_at_once.record), (foreign.film.develop(), None));
     for (a, b) in foreign.film.develop().pixels.iter().zip(&developed.pixels) {
         assert!(a[..3].iter().zip(b).all(|(a, b)| (a / b - 1.0).abs() < 1e-5));
     }
@@ -94,6 +119,7 @@ fn any_damage_is_told() {
     for at in (0..file.len()).step_by(97).chain([0, 5, 40, 48, file.len() - 1]) {
         let mut damaged = file.clone();
         damaged[at] ^= 0x10;
+        assert_eq!(develop(&damaged).err(), read(&damaged).err(), "byte {at}");
         match read(&damaged) {
             // Without the mark it would be a file of version 1, which this one is too, but for what follows.
             Ok(film) => assert!((40..48).contains(&at) && film.record.is_none(), "byte {at}"),
@@ -104,7 +130,8 @@ fn any_damage_is_told() {
         }
     }
     for length in [0, 3, 8, 39, 45, 60, 5039, 5040, 5041, file.len() / 2, file.len() - 33, file.len() - 1] {
-        assert!(read(&file[..length]).is_err(), "{length} bytes");
+        let error = read(&file[..length]).unwrap_err();
+        assert_eq!(develop(&file[..length]), Err(error), "{length} bytes");
     }
     assert_eq!(read(b"not a film at all"), Err(IgiError::NotIgi));
 }

@@ -2,7 +2,7 @@
 //! computes what it imitates.
 
 use crate::Region;
-use crate::convolution::Plane;
+use crate::convolution::{Plane, Room, Symmetry};
 use crate::window::Window;
 use indigo_film::XyzImage;
 
@@ -26,10 +26,13 @@ impl Bloom {
         let plane = Plane::new(window.width, window.height);
         let sigma = self.radius * f64::from(longer);
         let (columns, rows) = (profile(plane.columns, sigma), profile(plane.rows, sigma));
-        let [spectrum] =
-            plane.spectra(|x, y| [columns[x.unsigned_abs() as usize] * rows[y.unsigned_abs() as usize]]);
+        let mut room = Room::default();
+        let [spectrum] = plane.spectra(Symmetry::Mirror, &mut room, |x, y| {
+            [columns[x.unsigned_abs() as usize] * rows[y.unsigned_abs() as usize]]
+        });
         let weight = self.weight as f32;
-        plane.convolve(image, window, [&spectrum; 3], |_, sharp, blurred| sharp + weight * blurred);
+        plane
+            .convolve(image, window, [&spectrum; 3], &mut room, |_, sharp, blurred| sharp + weight * blurred);
     }
 }
 

@@ -40,15 +40,38 @@ pub(crate) struct Plane {
     kernel_column: Arc<dyn ComplexToReal<f64>>,
 }
 
-/// What a convolution needs room for; kept from one component to the next, since fresh memory costs as much
-/// time as using it.
-struct Room {
-    rows: Vec<Complex<f64>>,
-    columns: Vec<Complex<f64>>,
-    out: Vec<f32>,
+/// How a kernel repeats itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Symmetry {
+    /// In opposite directions.
+    Opposite,
+    /// To the left and to the right, too.
+    Mirror,
 }
 
-/// The transform of a kernel with K(-x) = K(x), which is real; column after column.
+/// Room that work on a plane takes. Kept from one step to the next, since fresh memory costs as much time as using it.
+#[derive(Default)]
+pub(crate) struct Room {
+    values: Vec<Complex<f64>>,
+}
+
+impl std::fmt::Debug for Room {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "room for {} numbers", self.values.len())
+    }
+}
+
+impl Room {
+    /// So many numbers, of any values.
+    fn take(&mut self, length: usize) -> &mut [Complex<f64>] {
+        if self.values.len() < length {
+            self.values = pages::filled(Complex::default(), length);
+        }
+        &mut self.values[..length]
+    }
+}
+
+/// The transform of a kernel that is the same in opposite directions, which is real; column after column.
 pub(crate) struct Spectrum {
     values: Vec<f64>,
     /// Part of the kernel round each pixel that does not fall into the picture, the kernel's whole being 1.
@@ -63,21 +86,20 @@ impl Plane {
         image: &mut XyzImage,
         window: Window,
         kernels: [&Spectrum; 3],
+        room: &mut Room,
         blend: impl Fn(usize, f32, f32) -> f32 + Sync,
     ) {
-        let transformed = || pages::filled(Complex::default(), self.height * self.kept());
-        let mut room = Room {
-            rows: transformed(),
-            columns: transformed(),
-            out: pages::fresh(vec![0.0; self.width * self.height]),
-        };
+        let transformed = self.height * self.kept();
+        let (rows, columns) = room.take(2 * transformed).split_at_mut(transformed);
+        let mut out = pages::fresh(vec![0.0; self.width * self.height]);
         for (component, kernel) in kernels.into_iter().enumerate() {
-            self.convolve_rows(kernel, &mut room, |y, row| {
+            self.transform_rows(rows, |y, row| {
                 let from = window.row(image, y);
                 row.iter_mut().zip(from).for_each(|(v, p)| *v = f64::from(p[component]));
             });
-            let convolved =
-                room.out.par_chunks_exact(self.width).zip(kernel.outside.par_chunks_exact(self.width));
+            self.filter_columns(rows, kernel, columns);
+            self.restore_rows(columns, &mut out);
+            let convolved = out.par_chunks_exact(self.width).zip(kernel.outside.par_chunks_exact(self.width));
             window.rows_mut(image).zip(convolved).for_each(|(row, (from, outside))| {
                 for (p, (&v, outside)) in row.iter_mut().zip(from.iter().zip(outside)) {
                     p[component] = blend(component, p[component], v + outside * p[component]);
@@ -106,11 +128,12 @@ impl Plane {
     /// Memory that making the spectra of `kernels` kernels and convolving with them takes, in bytes.
     pub fn bytes_needed(&self, kernels: u64) -> u64 {
         let [kept, rows, width, height] = [self.kept(), self.rows, self.width, self.height].map(|n| n as u64);
-        let kernel_rows = kernels * height * (kept * 16 + width * 8);
         let spectra = kernels * (kept * rows * 8 + width * height * 4);
-        let room = height * (2 * kept * 16 + width * 4);
-        // The rows of kernels are gone before anything is convolved.
-        spectra + kernel_rows.max(room)
+        // For the rows of kernels, then for those of pictures and their columns.
+        let room = height * kernels.max(2) * kept * 16;
+        // Sums of kernels are gone before anything is convolved.
+        let others = width * height * 4 * kernels.max(1);
+        spectra + room + others
     }
 
     /// Frequencies of a row.
@@ -118,18 +141,29 @@ impl Plane {
         self.columns / 2 + 1
     }
 
-    /// The spectra of kernels given by their values at an offset, columns to the right and rows down. Each must
-    /// be the same at the opposite offset.
-    pub fn spectra<const N: usize>(&self, kernels: impl Fn(i64, i64) -> [f64; N] + Sync) -> [Spectrum; N] {
+    /// The spectra of kernels given by their values at an offset, columns to the right and rows down.
+    pub fn spectra<const N: usize>(
+        &self,
+        symmetry: Symmetry,
+        room: &mut Room,
+        kernels: impl Fn(i64, i64) -> [f64; N] + Sync,
+    ) -> [Spectrum; N] {
         let (kept, reach) = (self.kept(), self.width as i64 - 1);
         // Row after row, in each of them kernel after kernel.
-        let mut rows = pages::filled(Complex::default(), N * kept * self.height);
+        let rows = room.take(N * kept * self.height);
+        // Each but rounded once from a sum in double precision; what is made of them is rounded likewise.
         let mut sums = pages::fresh(vec![0.0; N * self.width * self.height]);
         let chunks = rows.par_chunks_mut(N * kept).zip(sums.par_chunks_mut(N * self.width));
         chunks.enumerate().for_each_init(
             || (self.forward_row.make_input_vec(), self.forward_row.make_scratch_vec()),
             |(input, scratch), (y, (out, sums))| {
-                let line: Vec<[f64; N]> = (-reach..=reach).map(|x| kernels(x, y as i64)).collect();
+                let line: Vec<[f64; N]> = match symmetry {
+                    Symmetry::Opposite => (-reach..=reach).map(|x| kernels(x, y as i64)).collect(),
+                    Symmetry::Mirror => {
+                        let half: Vec<[f64; N]> = (0..=reach).map(|x| kernels(x, y as i64)).collect();
+                        half.iter().rev().chain(&half[1..]).copied().collect()
+                    }
+                };
                 for (c, sums) in sums.chunks_exact_mut(self.width).enumerate() {
                     sum_windows(line.iter().map(|v| v[c]), sums);
                 }
@@ -149,7 +183,7 @@ impl Plane {
             },
         );
         std::array::from_fn(|c| Spectrum {
-            values: self.kernel_columns(&rows, N, c),
+            values: self.kernel_columns(rows, N, c),
             outside: self.outside(|y| &sums[(N * y + c) * self.width..][..self.width]),
         })
     }
@@ -176,56 +210,26 @@ impl Plane {
 
     /// The part of a kernel that does not fall into the picture, pixel after pixel. `sums` gives, for a row from the
     /// middle down, its sum over the offsets that lead from each pixel's column into the picture.
-    fn outside<'a>(&self, sums: impl Fn(usize) -> &'a [f64]) -> Vec<f32> {
+    fn outside<'a>(&self, sums: impl Fn(usize) -> &'a [f32]) -> Vec<f32> {
         // Of the uppermost pixels: the rows from the middle up, which are those down read backwards.
         let mut running = vec![0.0; self.width];
         for y in 0..self.height {
-            running.iter_mut().zip(sums(y).iter().rev()).for_each(|(r, s)| *r += s);
+            running.iter_mut().zip(sums(y).iter().rev()).for_each(|(r, &s)| *r += f64::from(s));
         }
         let mut outside = Vec::with_capacity(self.width * self.height);
         outside.extend(running.iter().map(|&r| (1.0 - r) as f32));
         for y in 1..self.height {
             let changes = sums(y).iter().zip(sums(self.height - y).iter().rev());
-            running.iter_mut().zip(changes).for_each(|(r, (enters, leaves))| *r += enters - leaves);
+            running
+                .iter_mut()
+                .zip(changes)
+                .for_each(|(r, (&enters, &leaves))| *r += f64::from(enters) - f64::from(leaves));
             outside.extend(running.iter().map(|&r| (1.0 - r) as f32));
         }
         outside
     }
 
-    /// The picture whose row `y` is written by `fill`, in darkness, convolved; left in the room, row after row.
-    fn convolve_rows(&self, kernel: &Spectrum, room: &mut Room, fill: impl Fn(usize, &mut [f64]) + Sync) {
-        self.transform_rows(&mut room.rows, fill);
-        self.filter_columns(&room.rows, kernel, &mut room.columns);
-        let columns = &room.columns;
-        let scale = 1.0 / (self.columns * self.rows) as f64;
-        let chunks = room.out.par_chunks_mut(BATCH * self.width);
-        chunks.enumerate().for_each_init(
-            || {
-                let rows = vec![Complex::default(); BATCH * self.kept()];
-                (rows, self.inverse_row.make_output_vec(), self.inverse_row.make_scratch_vec())
-            },
-            |(rows, real, scratch), (batch, out)| {
-                load_columns(
-                    columns.chunks_exact(self.height),
-                    batch * BATCH,
-                    out.len() / self.width,
-                    rows,
-                    self.kept(),
-                );
-                let lines = out.chunks_exact_mut(self.width);
-                for (row, out) in rows.chunks_exact_mut(self.kept()).zip(lines) {
-                    // Real by symmetry, but for rounding.
-                    row[0].im = 0.0;
-                    row[self.kept() - 1].im = 0.0;
-                    let done = self.inverse_row.process_with_scratch(row, real, scratch);
-                    debug_assert!(done.is_ok(), "buffers of the plan's own sizes");
-                    out.iter_mut().zip(&*real).for_each(|(out, &v)| *out = (v * scale) as f32);
-                }
-            },
-        );
-    }
-
-    /// The transforms of the picture's rows, with darkness beside them.
+    /// The transforms of the picture's rows, of which `fill` writes row `y`, with darkness beside them.
     fn transform_rows(&self, rows: &mut [Complex<f64>], fill: impl Fn(usize, &mut [f64]) + Sync) {
         rows.par_chunks_mut(self.kept()).enumerate().for_each_init(
             || (self.forward_row.make_input_vec(), self.forward_row.make_scratch_vec()),
@@ -266,6 +270,36 @@ impl Plane {
             },
         );
     }
+
+    /// Transforms filtered columns back to the picture, row after row.
+    fn restore_rows(&self, columns: &[Complex<f64>], out: &mut [f32]) {
+        let scale = 1.0 / (self.columns * self.rows) as f64;
+        let chunks = out.par_chunks_mut(BATCH * self.width);
+        chunks.enumerate().for_each_init(
+            || {
+                let rows = vec![Complex::default(); BATCH * self.kept()];
+                (rows, self.inverse_row.make_output_vec(), self.inverse_row.make_scratch_vec())
+            },
+            |(rows, real, scratch), (batch, out)| {
+                load_columns(
+                    columns.chunks_exact(self.height),
+                    batch * BATCH,
+                    out.len() / self.width,
+                    rows,
+                    self.kept(),
+                );
+                let lines = out.chunks_exact_mut(self.width);
+                for (row, out) in rows.chunks_exact_mut(self.kept()).zip(lines) {
+                    // Real by symmetry, but for rounding.
+                    row[0].im = 0.0;
+                    row[self.kept() - 1].im = 0.0;
+                    let done = self.inverse_row.process_with_scratch(row, real, scratch);
+                    debug_assert!(done.is_ok(), "buffers of the plan's own sizes");
+                    out.iter_mut().zip(&*real).for_each(|(out, &v)| *out = (v * scale) as f32);
+                }
+            },
+        );
+    }
 }
 
 /// Copies `count` columns of some rows into a buffer for columns of a length, with zeros below.
@@ -287,11 +321,11 @@ fn load_columns<'a>(
 }
 
 /// The sums of as many neighbours as there are sums, from each value on.
-fn sum_windows(values: impl Iterator<Item = f64> + Clone, sums: &mut [f64]) {
+fn sum_windows(values: impl Iterator<Item = f64> + Clone, sums: &mut [f32]) {
     let mut sum: f64 = values.clone().take(sums.len()).sum();
     let mut next = values.clone().skip(sums.len()).zip(values);
     for out in sums {
-        *out = sum;
+        *out = sum as f32;
         if let Some((enters, leaves)) = next.next() {
             sum += enters - leaves;
         }

@@ -18,21 +18,16 @@ pub fn develop(film: &FilmState, settings: &PictureSettings) -> Picture {
 /// settings ask for it. Both pictures are made of it. Runs on the caller's rayon pool.
 pub fn on_sensor(mut image: XyzImage, settings: &PictureSettings) -> XyzImage {
     if let Some(diffraction) = &settings.diffraction {
-        let region = region(image.size, settings.region);
+        let region = settings.rendered(image.size);
         diffraction.apply(&mut image, region);
     }
     image
 }
 
-/// The part of a picture that is rendered.
-fn region(size: FilmSize, region: Option<Region>) -> Region {
-    region.unwrap_or_else(|| Region::whole(size)).within(size)
-}
-
 /// Makes the picture of the light on the sensor ([`on_sensor`]).
 pub fn develop_image(image: &XyzImage, settings: &PictureSettings) -> Picture {
     let size = image.size;
-    let region = region(size, settings.region);
+    let region = settings.rendered(size);
     let mut glowing;
     let image = match settings.bloom {
         Some(bloom) if !settings.foreground_alpha => {
@@ -52,7 +47,7 @@ pub fn develop_image(image: &XyzImage, settings: &PictureSettings) -> Picture {
             clamp(out);
         })
     };
-    clamp(&mut pixels);
+    clamp_all(&mut pixels);
     let pixels = framed(size, region, pixels);
     let mut picture = Picture { width: size.width(), height: size.height(), pixels };
     if settings.watermark {
@@ -65,7 +60,7 @@ pub fn develop_image(image: &XyzImage, settings: &PictureSettings) -> Picture {
 /// `filter` must pass [`Filter::check`]. Runs on the caller's rayon pool.
 pub fn untonemapped(image: &XyzImage, filter: Filter, region: Option<Region>) -> LinearImage {
     let size = image.size;
-    let region = self::region(size, region);
+    let region = Region::or_whole(region, size);
     let window = Window::of(size, region);
     // The matrix is linear like the filter: apply it to the few pixels that are left.
     let mut pixels = downsize(size, region, filter, |y, out| out.copy_from_slice(window.row(image, y)));
@@ -83,9 +78,26 @@ pub fn linear_picture(image: &XyzImage, settings: &PictureSettings) -> LinearIma
     if settings.foreground_alpha {
         picture.pixels.par_iter_mut().for_each(|pixel| *pixel = [pixel[3]; 4]);
         // A filter with negative lobes overshoots.
-        clamp(&mut picture.pixels);
+        clamp_all(&mut picture.pixels);
     }
     picture
+}
+
+/// Coverage of output pixels by what camera rays meet, filtered as the light is; rows from top to bottom, 0 beyond the region.
+/// For each internal pixel it is told what weights the splat filter gives to the rays that meet something, and to all. A filter
+/// with negative lobes takes it a little below 0 and above 1 beside edges, just as it does the light: what is
+/// laid over another picture by it stays right. Runs on the caller's rayon pool.
+pub fn coverage(size: FilmSize, weights: &[[f32; 2]], filter: Filter, region: Option<Region>) -> Vec<f32> {
+    let region = Region::or_whole(region, size);
+    let window = Window::of(size, region);
+    let pixels = downsize(size, region, filter, |y, out| {
+        let row = weights.chunks_exact(size.internal_width() as usize).nth(window.top + y);
+        let row = &row.unwrap_or_default()[window.left..][..window.width];
+        out.iter_mut().zip(row).for_each(|(out, &[met, all])| *out = [met, all, 0.0, 0.0]);
+    });
+    // The ratio of both sums: what is all covered is so exactly, however few the rays.
+    let part = |[met, all, ..]: [f32; 4]| if all > 0.0 { met / all } else { 0.0 };
+    framed(size, region, pixels).into_iter().map(part).collect()
 }
 
 /// The light on the sensor that a linear picture shows, without super-sampling. Errors: it has no pixels, or too many.
@@ -107,9 +119,16 @@ fn coverage_row(from: &[[f32; 4]], to: &mut [[f32; 4]]) {
 
 /// Brings all components into [0, 1]; a NaN (of sums beyond all bounds) becomes 0.
 fn clamp(pixels: &mut [[f32; 4]]) {
-    for v in pixels.iter_mut().flatten() {
+    for v in pixels.as_flattened_mut() {
         *v = if *v > 0.0 { v.min(1.0) } else { 0.0 };
     }
+}
+
+/// The same on the caller's rayon pool.
+fn clamp_all(pixels: &mut [[f32; 4]]) {
+    /// Enough to be worth a task.
+    const TOGETHER: usize = 1 << 14;
+    pixels.par_chunks_mut(TOGETHER).for_each(clamp);
 }
 
 /// A region's pixels in a frame of the picture's full size, black where nothing was rendered.

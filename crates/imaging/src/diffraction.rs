@@ -22,7 +22,8 @@ mod output_pixels;
 mod spread;
 
 use crate::Region;
-use crate::convolution::{Plane, Spectrum};
+use crate::convolution::{Plane, Room, Spectrum, Symmetry};
+use crate::downsize::extent;
 use crate::window::Window;
 use indigo_camera::{FarField, Pupil};
 use indigo_film::{FilmSize, XyzImage};
@@ -47,6 +48,8 @@ pub struct Diffraction {
     field: OnceLock<Option<FarField>>,
     /// The one used last is the first.
     prepared: Mutex<Vec<Arc<Prepared>>>,
+    /// What preparing took, for the picture that it was done for.
+    room: Mutex<Room>,
 }
 
 /// The kernels for pictures of one size.
@@ -69,7 +72,13 @@ impl Diffraction {
     /// Of a pupil on a film on which a cycle across the pupil's square has a size, in widths and
     /// heights of the film per nm of wavelength ([`indigo_camera::ThinLens::cycle_per_nm`]).
     pub fn new(pupil: Pupil, cycle_per_nm: [f64; 2]) -> Self {
-        Self { pupil, cycle_per_nm, field: OnceLock::new(), prepared: Mutex::default() }
+        Self {
+            pupil,
+            cycle_per_nm,
+            field: OnceLock::new(),
+            prepared: Mutex::default(),
+            room: Mutex::default(),
+        }
     }
 
     /// Memory that the first picture of a film of a size takes besides the film and the picture, in bytes.
@@ -79,38 +88,54 @@ impl Diffraction {
             + means * size.pixels() as u64
     }
 
+    /// Makes the kernels for a region of a film, in advance of its picture. Runs on the caller's rayon pool.
+    pub(crate) fn prepare(&self, film: FilmSize, region: Region) {
+        let [width, height] = extent(region);
+        if width > 0 && height > 0 {
+            let mut room = Room::default();
+            self.prepared([width, height], film, &mut room);
+            *self.room.lock().unwrap_or_else(PoisonError::into_inner) = room;
+        }
+    }
+
     /// Spreads the light of the internal pixels of a region.
     pub(crate) fn apply(&self, image: &mut XyzImage, region: Region) {
+        let mut room = std::mem::take(&mut *self.room.lock().unwrap_or_else(PoisonError::into_inner));
         let Some(mut means) = output_pixels::means(image, region) else { return };
-        let window = Window::of(means.size, Region::whole(means.size));
-        let Some(prepared) = self.prepared(window, image.size) else { return };
+        let Some(prepared) = self.prepared(extent(region), image.size, &mut room) else { return };
         let Prepared { plane, spectra, kept, .. } = &*prepared;
-        plane.convolve(&mut means, window, spectra.each_ref(), |c, mean, spread| spread - kept[c] * mean);
+        let window = Window::of(means.size, Region::whole(means.size));
+        plane.convolve(&mut means, window, spectra.each_ref(), &mut room, |c, mean, spread| {
+            spread - kept[c] * mean
+        });
         output_pixels::add(image, region, *kept, &means);
     }
 
-    /// The kernels for a window of output pixels of a film; `None` where no light passes the pupil.
-    fn prepared(&self, window: Window, film: FilmSize) -> Option<Arc<Prepared>> {
+    /// The kernels for so many columns and rows of output pixels of a film; `None` where no light passes the pupil.
+    fn prepared(
+        &self,
+        [width, height]: [usize; 2],
+        film: FilmSize,
+        room: &mut Room,
+    ) -> Option<Arc<Prepared>> {
         let mut guard = self.prepared.lock().unwrap_or_else(PoisonError::into_inner);
-        let serves = |p: &Arc<Prepared>| {
-            (p.plane.width, p.plane.height, p.film) == (window.width, window.height, film)
-        };
+        let serves = |p: &Arc<Prepared>| (p.plane.width, p.plane.height, p.film) == (width, height, film);
         if let Some(i) = guard.iter().position(serves) {
             guard[..=i].rotate_right(1);
         } else {
             let field = self.field.get_or_init(|| self.pupil.far_field()).as_ref()?;
-            let plane = Plane::new(window.width, window.height);
+            let plane = Plane::new(width, height);
             let cycle_per_nm = self.cycle_per_nm;
             let cycle = |[width, height]: [u32; 2]| {
                 [cycle_per_nm[0] * f64::from(width), cycle_per_nm[1] * f64::from(height)]
             };
-            let kernel =
-                Kernel::new(field, [window.width, window.height], cycle([film.width(), film.height()]));
+            let kernel = Kernel::new(field, [width, height], cycle([film.width(), film.height()]));
             let kept = match film.super_sample() {
                 1 => [0.0; 3],
                 _ => kernel.kept(cycle([film.internal_width(), film.internal_height()])),
             };
-            let spectra = plane.spectra(|x, y| kernel.at(x, y));
+            let symmetry = if field.is_round() { Symmetry::Mirror } else { Symmetry::Opposite };
+            let spectra = plane.spectra(symmetry, room, |x, y| kernel.at(x, y));
             guard.insert(0, Arc::new(Prepared { plane, spectra, kept, film }));
             guard.truncate(SIZES);
         }

@@ -44,6 +44,18 @@ impl PictureSettings {
             watermark: false,
         }
     }
+
+    /// Does in advance what takes time and depends on a film's size alone. Runs on the caller's rayon pool.
+    pub fn prepare(&self, film: FilmSize) {
+        if let Some(diffraction) = &self.diffraction {
+            diffraction.prepare(film, self.rendered(film));
+        }
+    }
+
+    /// The part of a film's picture that is rendered.
+    pub(crate) fn rendered(&self, film: FilmSize) -> Region {
+        Region::or_whole(self.region, film)
+    }
 }
 
 /// The facts of a camera that decide its exposure.
@@ -90,6 +102,13 @@ impl Region {
         Self { x1: 0, y1: 0, x2: size.width(), y2: size.height() }
     }
 
+    /// A region if there is one, as far as it lies within a picture, should it have been made for another; else the whole.
+    pub(crate) fn or_whole(region: Option<Self>, size: FilmSize) -> Self {
+        let Some(Self { x1, y1, x2, y2 }) = region else { return Self::whole(size) };
+        let (x2, y2) = (x2.min(size.width()), y2.min(size.height()));
+        Self { x1: x1.min(x2), y1: y1.min(y2), x2, y2 }
+    }
+
     /// First column and row.
     pub fn start(&self) -> [u32; 2] {
         [self.x1, self.y1]
@@ -98,11 +117,5 @@ impl Region {
     /// The column and the row after the last.
     pub fn end(&self) -> [u32; 2] {
         [self.x2, self.y2]
-    }
-
-    /// The part of it that lies within a picture, should it have been made for another.
-    pub(crate) fn within(self, size: FilmSize) -> Self {
-        let (x2, y2) = (self.x2.min(size.width()), self.y2.min(size.height()));
-        Self { x1: self.x1.min(x2), y1: self.y1.min(y2), x2, y2 }
     }
 }

@@ -99,11 +99,11 @@ impl DiskResolver {
     }
 }
 
-/// A file's bytes, as long as they are no more than are ever read of one.
+/// A file to be read, and its length, as long as that is no more than is ever read of one.
 ///
 /// # Errors
 /// What the system says, or that the file is too large.
-pub fn read_limited(path: &Path) -> std::io::Result<Vec<u8>> {
+pub fn open_limited(path: &Path) -> std::io::Result<(impl Read, u64)> {
     if !std::fs::metadata(path)?.is_file() {
         // To open a pipe may wait for ever, and a device may have no end.
         return Err(std::io::Error::other("not a regular file"));
@@ -113,8 +113,17 @@ pub fn read_limited(path: &Path) -> std::io::Result<Vec<u8>> {
     if length > DiskResolver::DEFAULT_LIMIT {
         return Err(std::io::ErrorKind::FileTooLarge.into());
     }
+    Ok((file.take(DiskResolver::DEFAULT_LIMIT), length))
+}
+
+/// A file's bytes.
+///
+/// # Errors
+/// As [`open_limited`].
+pub fn read_limited(path: &Path) -> std::io::Result<Vec<u8>> {
+    let (mut file, length) = open_limited(path)?;
     let mut bytes = pages::with_capacity(length as usize);
-    file.take(DiskResolver::DEFAULT_LIMIT).read_to_end(&mut bytes)?;
+    file.read_to_end(&mut bytes)?;
     Ok(bytes)
 }
 

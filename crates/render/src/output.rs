@@ -9,9 +9,9 @@ use crate::atomic::{check_writable, write_atomically};
 use crate::denoise::{DenoiseError, Denoiser};
 use crate::first_hits::SceneFirstHits;
 use crate::pool::with_jobs;
-use indigo_film::{FilmRecord, FilmState, Filter, SavedFilm, XyzImage, igi};
+use indigo_film::{DevelopedFilm, FilmRecord, FilmState, Filter, SavedFilm, XyzImage, igi};
 use indigo_imaging::{
-    Content, Exposure, ImagingError, LinearImage, Metadata, Picture, PictureSettings, ToneMapping,
+    Content, Exposure, ImagingError, LinearImage, Metadata, Picture, PictureSettings, ToneMapping, coverage,
     develop_image, exr, from_linear, layers, linear_picture, on_sensor, png, untonemapped,
 };
 use indigo_scene::{Development, Scene};
@@ -94,30 +94,52 @@ impl SaveJob {
     }
 
     fn save_on_pool(&self, saved: &SavedFilm) -> Saved {
-        let (settings, output) = (&self.development.picture, &self.development.output);
         let mut all = Saved::default();
         // First what cannot be made again.
-        if let (true, Some(record)) = (output.igi, &saved.record) {
+        if let (true, Some(record)) = (self.development.output.igi, &saved.record) {
             all.add(write_film(&self.paths.igi(), &saved.film, record));
         }
-        let image = on_sensor(saved.film.develop(), settings);
-        let metadata = metadata::of(self, saved);
-        self.write_pictures(&image, &metadata, &self.paths.pictures(), &mut all);
-        if let (true, Some(hits)) = (output.layers_exr, &self.first_hits) {
-            all.add(self.write_layers(&image, &saved.film, hits, &metadata));
+        self.save_light(saved.film.develop(), saved.record.as_ref(), Some(&saved.film), &mut all);
+        all
+    }
+
+    /// The same of a film that is developed already, but neither the film nor what its layers tell.
+    pub fn save_developed(&self, film: DevelopedFilm) -> Saved {
+        with_jobs(self.threads, || {
+            let mut all = Saved::default();
+            self.save_light(film.image, film.record.as_ref(), None, &mut all);
+            all
+        })
+    }
+
+    /// Writes the pictures of a film's light; those of its layers, too, where it is there.
+    fn save_light(
+        &self,
+        light: XyzImage,
+        record: Option<&FilmRecord>,
+        film: Option<&FilmState>,
+        all: &mut Saved,
+    ) {
+        let (settings, output) = (&self.development.picture, &self.development.output);
+        let denoiser = self.active_denoiser();
+        let noisy = denoiser.map(|_| light.clone());
+        let metadata = metadata::of(self, light.size, record);
+        let image = on_sensor(light, settings);
+        self.write_pictures(&image, &metadata, &self.paths.pictures(), all);
+        if let (true, Some(hits), Some(film)) = (output.layers_exr, &self.first_hits, film) {
+            all.add(self.write_layers(&image, film, hits, &metadata));
         }
-        if let Some(denoiser) = self.active_denoiser() {
-            match self.denoised(&saved.film.develop(), denoiser) {
+        if let (Some(denoiser), Some(noisy)) = (denoiser, &noisy) {
+            match self.denoised(noisy, denoiser) {
                 Ok(light) => {
                     let mut metadata = metadata;
                     metadata.set("denoised", "by Open Image Denoise");
                     let image = on_sensor(light, settings);
-                    self.write_pictures(&image, &metadata, &self.paths.denoised(), &mut all);
+                    self.write_pictures(&image, &metadata, &self.paths.denoised(), all);
                 }
                 Err(error) => all.failures.push(error),
             }
         }
-        all
     }
 
     /// What denoises, if anything is to be: coverage has no noise worth it.
@@ -161,7 +183,8 @@ impl SaveJob {
         if !settings.foreground_alpha {
             // Not the film's coverage: what light paths and Markov chains add to a film has none.
             let mut foreground = self.part(film, |layer| !is_background(layer));
-            foreground.pixels.iter_mut().zip(hits.get()).for_each(|(pixel, hit)| pixel[3] = hit.coverage);
+            let coverage = coverage(film.size, hits.weights(), settings.downsize, settings.region);
+            foreground.pixels.iter_mut().zip(coverage).for_each(|(pixel, covered)| pixel[3] = covered);
             channels.extend(layers::foreground_channels(&foreground));
             channels.extend(layers::background_channels(&self.part(film, is_background)));
             channels.extend(layers::direct_channels(&self.part(film, |layer| !is_indirect(layer))));

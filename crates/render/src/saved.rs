@@ -1,9 +1,10 @@
 //! Films that outlive their session: what is said of them in a file, and how they are read back.
 
-use crate::disk::read_limited;
+use crate::disk::open_limited;
 use crate::pool::with_jobs;
-use indigo_film::igi::{self, IgiError};
-use indigo_film::{FilmRecord, Mismatch, SavedFilm};
+use indigo_film::igi::{IgiError, IgiFile};
+use indigo_film::{DevelopedFilm, FilmRecord, FilmSize, Mismatch, SavedFilm};
+use indigo_imaging::PictureSettings;
 use indigo_scene::Scene;
 use std::path::{Path, PathBuf};
 
@@ -47,10 +48,26 @@ pub(crate) fn lines(reasons: &[Mismatch]) -> String {
 /// # Errors
 /// Where the file cannot be read, or is no sound Indigo image.
 pub fn read_film(path: &Path) -> Result<SavedFilm, FilmFileError> {
-    let bytes =
-        read_limited(path).map_err(|source| FilmFileError::Read { path: path.to_path_buf(), source })?;
-    with_jobs(usize::MAX, || igi::read(&bytes))
-        .map_err(|source| FilmFileError::Content { path: path.to_path_buf(), source })
+    with_jobs(usize::MAX, || made_of(path, IgiFile::film))
+}
+
+/// Reads an Indigo image and develops it, in a third of the memory of the film; meanwhile `settings` are prepared for its
+/// picture, which is expected to be of a size.
+///
+/// # Errors
+/// As [`read_film`].
+pub fn develop_film(
+    path: &Path,
+    settings: &PictureSettings,
+    expected: FilmSize,
+) -> Result<DevelopedFilm, FilmFileError> {
+    with_jobs(usize::MAX, || rayon::join(|| made_of(path, IgiFile::develop), || settings.prepare(expected)).0)
+}
+
+fn made_of<T>(path: &Path, make: impl FnOnce(&IgiFile) -> Result<T, IgiError>) -> Result<T, FilmFileError> {
+    let loaded = open_limited(path).and_then(|(file, length)| IgiFile::load(file, length));
+    let loaded = loaded.map_err(|source| FilmFileError::Read { path: path.to_path_buf(), source })?;
+    make(&loaded).map_err(|source| FilmFileError::Content { path: path.to_path_buf(), source })
 }
 
 /// Reads Indigo images and adds them, each to the first.

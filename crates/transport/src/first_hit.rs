@@ -3,6 +3,7 @@
 //!
 //! Means are over the area of the output pixel and over the lens, without a filter: one with negative lobes would make
 //! reflectances and depths that do not exist. What is not a quantity, a number of an object, is that of most rays.
+//! Coverage alone has to go with the light, by the film's filters: for that it is told where the rays were.
 
 use crate::sampler::{Block, PrimarySample, SobolSample};
 use crate::technique::first_event::{FirstEvent, first_event};
@@ -14,9 +15,18 @@ use indigo_spectrum::{SampledWavelengths, adaptation, illuminant};
 
 /// Camera rays of a pixel: a power of two, so that Sobol' points cover pixel, lens and wavelengths evenly; with four
 /// wavelengths each the reflectance is that of 64 evenly spread wavelengths.
-const RAYS: usize = 16;
+pub const RAYS: usize = 16;
 /// All pictures of a scene show the same.
 const SEED: u64 = 0;
+
+/// A camera ray, evenly drawn from its output pixel.
+#[derive(Clone, Copy, Debug)]
+pub struct FilmRay {
+    /// Where it is on the film, in internal pixels.
+    pub position: Vec2,
+    /// Whether it meets anything.
+    pub hits: bool,
+}
 
 /// Finds what pixels show; with the memory that it needs.
 #[derive(Clone, Debug, Default)]
@@ -25,27 +35,30 @@ pub struct FirstHits {
 }
 
 impl FirstHits {
-    /// What an output pixel shows. Diffraction is left out.
-    pub fn of_pixel(&mut self, scene: &Scene, [x, y]: [u32; 2]) -> FirstHit {
+    /// What an output pixel shows, and the rays that tell. Diffraction is left out.
+    pub fn of_pixel(&mut self, scene: &Scene, [x, y]: [u32; 2]) -> (FirstHit, [FilmRay; RAYS]) {
         let size = scene.film.size;
+        let factor = size.super_sample() as Real;
         let mut sum = Sum::default();
-        for ray in 0..RAYS {
+        let rays = std::array::from_fn(|ray| {
             let mut numbers = SobolSample::new(SEED, u64::from(y) << 32 | u64::from(x), ray as u32);
             let [u, v, wavelength, _] = numbers.block(Block::FILM);
             let [lens_x, lens_y, ..] = numbers.block(Block::LENS);
-            let position =
-                Vec2::new((x as Real + u) / size.width() as Real, (y as Real + v) / size.height() as Real);
+            let (x, y) = (x as Real + u, y as Real + v);
+            let position = Vec2::new(x / size.width() as Real, y / size.height() as Real);
             // Albedos are of daylight, whatever light the scene has.
             let lambda = SampledWavelengths::sample(wavelength);
             let camera = scene.camera.ray(position, Vec2::new(lens_x, lens_y));
             let (sensor, light) = (Sensor::new(&lambda), illuminant::d65(&lambda));
-            if let Some(event) = first_event(&mut self.memory, scene, &mut numbers, &lambda, &camera) {
+            let event = first_event(&mut self.memory, scene, &mut numbers, &lambda, &camera);
+            if let Some(event) = event {
                 add(&mut sum.white, sensor.xyz(&light));
                 add(&mut sum.albedo, sensor.xyz(&(event.albedo * light)));
                 sum.add(ray, &event);
             }
-        }
-        sum.mean()
+            FilmRay { position: Vec2::new(x * factor, y * factor), hits: event.is_some() }
+        });
+        (sum.mean(), rays)
     }
 }
 

@@ -34,6 +34,14 @@ pub struct Transmission {
 }
 
 impl GreyImage {
+    /// With the nearest of 0 and 1 for values beyond, and 0 for NaN.
+    pub(crate) fn clamped(mut self) -> Self {
+        for t in &mut self.texels {
+            *t = if *t > 0.0 { t.min(1.0) } else { 0.0 };
+        }
+        self
+    }
+
     /// The image on `side` × `side` cells, each the mean of a function of the texels that it covers;
     /// texels that are cut by cells count by their covered part.
     pub fn resized(&self, side: usize, f: impl Fn(f32) -> f32 + Sync) -> Mask {
@@ -71,10 +79,7 @@ impl Transmission {
     /// # Errors
     /// Where nothing is open.
     pub fn new(image: &GreyImage) -> Result<Self, NothingOpen> {
-        let mut image = image.clone();
-        for t in &mut image.texels {
-            *t = if *t > 0.0 { t.min(1.0) } else { 0.0 };
-        }
+        let image = image.clone().clamped();
         let mut columns = Vec::with_capacity((image.width + 1) * image.height);
         let mut sums = Vec::with_capacity(image.height);
         for row in image.texels.chunks_exact(image.width) {

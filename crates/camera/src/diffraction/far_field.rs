@@ -131,17 +131,16 @@ impl FarField {
     fn add_tail(&mut self) {
         let rings = self.radii.len() - 1;
         let first = self.radii.partition_point(|&r| r < 0.5 * LAST as f64);
-        let (inside, tail) = self.density.split_at_mut(rings * SECTORS);
-        for (j, out) in tail.iter_mut().enumerate() {
-            let (mut sum, mut weights) = (0.0, 0.0);
-            for i in first..rings {
-                let (lo, hi) = (self.radii[i], self.radii[i + 1]);
-                let weight = (hi / lo).ln();
-                sum += weight * f64::from(inside[i * SECTORS + j]) * (0.5 * (lo + hi)).powi(3);
-                weights += weight;
-            }
-            *out = (sum / weights) as f32;
+        let all = (self.radii[rings] / self.radii[first]).ln();
+        let mut sums = [0.0; SECTORS];
+        for i in first..rings {
+            let (lo, hi) = (self.radii[i], self.radii[i + 1]);
+            let weight = (hi / lo).ln() / all * (0.5 * (lo + hi)).powi(3);
+            let row = &self.density[i * SECTORS..(i + 1) * SECTORS];
+            sums.iter_mut().zip(row).for_each(|(sum, &d)| *sum += weight * f64::from(d));
         }
+        let tail = &mut self.density[rings * SECTORS..];
+        tail.iter_mut().zip(sums).for_each(|(out, sum)| *out = sum as f32);
     }
 
     /// Where rings begin, and where the last one ends.

@@ -197,6 +197,34 @@ fn masks_and_light_are_not_taken_for_each_other() {
     }
 }
 
+/// Films of before that was said in them are taken as the scene has it, and that is told.
+#[test]
+fn a_film_that_does_not_say_what_it_holds_is_taken_as_the_scene_has_it() {
+    let bench = Workbench::new(SAVED);
+    let text = std::fs::read_to_string(bench.path("scene.igs")).expect("the scene");
+    let mask = "<render_foreground_alpha>true</render_foreground_alpha></renderer_settings>";
+    bench.write("mask.igs", &text.replace("</renderer_settings>", mask));
+    ok(&bench.run(&["scene.igs", "-haltspp", "1", "-o", "a.png"]));
+    let mut old =
+        indigo_film::igi::read(&std::fs::read(bench.path("a.igi")).expect("a film")).expect("a film");
+    let record = old.record.as_mut().expect("a film of this program");
+    record.settings.retain(|(name, _)| name != "render_foreground_alpha");
+    let mut file = Vec::new();
+    indigo_film::igi::write(&mut file, &old.film, old.record.as_ref().expect("its record")).expect("a film");
+    std::fs::write(bench.path("old.igi"), file).expect("a file");
+    for (scene, taken) in [("scene.igs", "light"), ("mask.igs", "what hides the background")] {
+        let ran = bench.run(&["--tonemap", scene, "old.igi", "x.png"]);
+        ok(&ran);
+        let says = format!(
+            "does not say whether it was rendered with render_foreground_alpha, as it is of an older \
+                            version: it is taken for {taken}, as in the scene"
+        );
+        assert!(ran.stderr.contains(&says), "{}", ran.stderr);
+        let ran = bench.run(&["--tonemap", scene, "a.igi", "x.png"]);
+        assert!(!ran.stderr.contains("does not say"), "{}", ran.stderr);
+    }
+}
+
 /// What is named by mistake is told before a scene is read that may take its time, and without rendering, too.
 #[test]
 fn a_file_that_is_no_film_is_told_before_the_scene_is_read() {

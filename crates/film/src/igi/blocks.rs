@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use std::io::{self, Write};
 
 /// Numbers of a block: half a mebibyte, which stays in a processor's cache.
-const BLOCK: usize = 1 << 16;
+pub(super) const BLOCK: usize = 1 << 16;
 /// Bytes of a number.
 const WIDTH: usize = 8;
 /// A block that is none.
@@ -52,6 +52,11 @@ impl<'a> Packed<'a> {
     pub fn unpack(self, values: &mut [f64]) -> Result<(), IgiError> {
         let blocks = values.par_chunks_mut(BLOCK).zip(self.0);
         blocks.try_for_each_init(Vec::new, |planes, (values, packed)| unpack(packed, planes, values))
+    }
+
+    /// Unpacks block `i`, which has as many numbers as are asked for; `planes` is room for its bytes.
+    pub fn unpack_block(&self, i: usize, planes: &mut Vec<u8>, values: &mut [f64]) -> Result<(), IgiError> {
+        unpack(self.0.get(i).copied().unwrap_or_default(), planes, values)
     }
 }
 

@@ -26,7 +26,7 @@ mod write;
 
 use crate::FilmError;
 
-pub use read::read;
+pub use read::{IgiFile, read};
 pub use write::write;
 
 /// The first four bytes of every Indigo image.

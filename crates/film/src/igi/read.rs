@@ -1,23 +1,137 @@
 //! Reading a film, with nothing in the file believed.
 
-use super::blocks::Packed;
+use super::blocks::{BLOCK, Packed};
 use super::bytes::Bytes;
 use super::foreign;
 use super::{HASH, IMAGE, IgiError, MAGIC, MARK, MAX_LAYERS, PADDING, SECTION_VERSION, VERSION};
-use crate::record::{FilmRecord, Run, SavedFilm};
-use crate::{FilmSize, FilmState, Layer, LayerKind, Totals};
-use indigo_math::pages::fresh;
+use crate::band::develop_layer;
+use crate::record::{DevelopedFilm, FilmRecord, Run, SavedFilm};
+use crate::{FilmSize, FilmState, Layer, LayerKind, Totals, XyzImage};
+use indigo_math::pages::{self, fresh};
+use std::io::{self, Read};
 
-/// Reads an Indigo image, of this program or another. Runs on the caller's rayon pool.
+/// Reads an Indigo image, of this program or another, from its bytes. Runs on the caller's rayon pool.
 ///
 /// # Errors
 /// See [`IgiError`]: no content of a file is taken on trust.
 pub fn read(file: &[u8]) -> Result<SavedFilm, IgiError> {
+    // A slice cannot fail to be read.
+    IgiFile::load(file, file.len() as u64).map_err(|_| IgiError::NotIgi)?.film()
+}
+
+/// An Indigo image in memory, of this program or another, nothing of which has been believed or unpacked yet.
+#[derive(Debug)]
+pub struct IgiFile {
+    /// The file; one with the mark without the image that it holds for other programs.
+    bytes: Vec<u8>,
+    /// What is known of a file with the mark up to that image's end.
+    own: Option<Start>,
+}
+
+/// The hash up to some place of a file, and how much of an image came before.
+#[derive(Debug)]
+struct Start {
+    hasher: blake3::Hasher,
+    image: u64,
+}
+
+impl IgiFile {
+    /// What is read at once and not kept: little enough for the processor's cache, much for a hash by many lanes.
+    const BUFFER: usize = 1 << 17;
+
+    /// Loads a file that is thought to have so many bytes.
+    ///
+    /// # Errors
+    /// What the reader says.
+    pub fn load(mut file: impl Read, length: u64) -> io::Result<Self> {
+        let mut head = Vec::with_capacity(IMAGE);
+        file.by_ref().take(IMAGE as u64).read_to_end(&mut head)?;
+        let mut own = None;
+        if let (true, Ok(size)) = (has_mark(&head), own_size(&head)) {
+            let mut hasher = blake3::Hasher::new();
+            hasher.update(&head);
+            // Nobody here looks at it: what it holds follows in full. It is not even kept.
+            let mut image = file.by_ref().take(size.internal_pixels() as u64 * 12);
+            let mut buffer = vec![0; Self::BUFFER];
+            loop {
+                match image.read(&mut buffer) {
+                    Ok(0) => break,
+                    Ok(n) => {
+                        hasher.update(&buffer[..n]);
+                    }
+                    Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+                    Err(error) => return Err(error),
+                }
+            }
+            own = Some(Start { image: hasher.count() - head.len() as u64, hasher });
+        }
+        let rest = length.saturating_sub(own.as_ref().map_or(0, |start| start.image));
+        let mut bytes = pages::with_capacity(rest as usize);
+        bytes.append(&mut head);
+        file.read_to_end(&mut bytes)?;
+        Ok(Self { bytes, own })
+    }
+
+    /// The film. Runs on the caller's rayon pool.
+    ///
+    /// # Errors
+    /// See [`IgiError`].
+    pub fn film(&self) -> Result<SavedFilm, IgiError> {
+        match &self.own {
+            Some(start) => self.checked(start, Content::unpack),
+            None => read_without_mark(&self.bytes),
+        }
+    }
+
+    /// The film developed: the same as developing [`Self::film`], but its sums, three times as large as the image, are
+    /// nowhere all at once. Runs on the caller's rayon pool.
+    ///
+    /// # Errors
+    /// See [`IgiError`].
+    pub fn develop(&self) -> Result<DevelopedFilm, IgiError> {
+        if let Some(start) = &self.own {
+            return self.checked(start, Content::develop);
+        }
+        let SavedFilm { film, record } = read_without_mark(&self.bytes)?;
+        Ok(DevelopedFilm { image: film.develop(), record })
+    }
+
+    /// Makes something of the content of a file with the mark while its hash is computed.
+    fn checked<'a, T: Send>(
+        &'a self,
+        start: &Start,
+        make: impl FnOnce(Content<'a>) -> Result<T, IgiError> + Send,
+    ) -> Result<T, IgiError> {
+        let section = u32::from_le_bytes(fixed(&self.bytes, PADDING + MARK.len())?);
+        if section != SECTION_VERSION {
+            return Err(IgiError::Section(section));
+        }
+        let split = self.bytes.len().checked_sub(HASH).filter(|&n| n >= IMAGE);
+        let (content, hash) =
+            split.map(|n| self.bytes.split_at(n)).ok_or(IgiError::Truncated("the image"))?;
+        let read = || Content::read(content, start.image).and_then(make);
+        let (found, made) = rayon::join(|| start.hasher.clone().update(&content[IMAGE..]).finalize(), read);
+        if found.as_bytes() != hash {
+            return Err(IgiError::Checksum);
+        }
+        made
+    }
+}
+
+fn has_mark(file: &[u8]) -> bool {
+    let numbers = [MAGIC, VERSION].map(u32::to_le_bytes);
+    file.starts_with(numbers.as_flattened()) && file.get(PADDING..PADDING + MARK.len()) == Some(&MARK)
+}
+
+/// Reads a file that has not the mark, or no size to go with it.
+fn read_without_mark(file: &[u8]) -> Result<SavedFilm, IgiError> {
+    if has_mark(file) {
+        own_size(file)?;
+    }
     let mut bytes = Bytes(file);
     let start = |b: &mut Bytes<'_>| Ok((b.u32("the first bytes")?, b.u32("the first bytes")?));
     let (magic, version) = start(&mut bytes).map_err(|_: IgiError| IgiError::NotIgi)?;
     match (magic, version) {
-        (MAGIC, VERSION) if file.get(PADDING..PADDING + MARK.len()) == Some(&MARK) => read_own(file),
         (MAGIC, 1) => foreign::read_version_1(&mut bytes),
         (MAGIC, 7 | 8) => foreign::read_version_7(&mut bytes, version),
         (MAGIC, other) => Err(IgiError::Version(other)),
@@ -25,38 +139,52 @@ pub fn read(file: &[u8]) -> Result<SavedFilm, IgiError> {
     }
 }
 
-/// Reads a file with the mark.
-fn read_own(file: &[u8]) -> Result<SavedFilm, IgiError> {
-    let section = u32::from_le_bytes(fixed(file, PADDING + MARK.len())?);
-    if section != SECTION_VERSION {
-        return Err(IgiError::Section(section));
-    }
-    let (content, hash) =
-        file.len().checked_sub(HASH).map(|n| file.split_at(n)).ok_or(IgiError::Truncated("the header"))?;
-    let (found, film) = rayon::join(|| blake3::hash(content), || read_content(content));
-    if found.as_bytes() != hash {
-        return Err(IgiError::Checksum);
-    }
-    film
+/// What a file with the mark holds, not unpacked yet.
+struct Content<'a> {
+    size: FilmSize,
+    record: FilmRecord,
+    refused: u64,
+    layers: Vec<PackedLayer<'a>>,
 }
 
-/// Reads a file with the mark, without the hash at its end, which nobody has looked at yet.
-fn read_content(content: &[u8]) -> Result<SavedFilm, IgiError> {
-    let size = own_size(content)?;
-    let mut bytes = Bytes(content);
-    bytes.take(IMAGE, "the header")?;
-    bytes.take(size.internal_pixels() * 12, "the image")?;
-    let record = read_record(&mut bytes)?;
-    let refused = bytes.u64("the record")?;
-    let count = bytes.u32("the record")? as usize;
-    if count > MAX_LAYERS {
-        return Err(IgiError::Malformed("there are too many layers"));
+impl<'a> Content<'a> {
+    /// Of a file without its image, which had so many bytes, and without the hash at its end, which nobody has looked at
+    /// yet.
+    fn read(content: &'a [u8], image: u64) -> Result<Self, IgiError> {
+        let size = own_size(content)?;
+        let mut bytes = Bytes(content);
+        bytes.take(IMAGE, "the header")?;
+        if image != size.internal_pixels() as u64 * 12 {
+            return Err(IgiError::Truncated("the image"));
+        }
+        let record = read_record(&mut bytes)?;
+        let refused = bytes.u64("the record")?;
+        let count = bytes.u32("the record")? as usize;
+        if count > MAX_LAYERS {
+            return Err(IgiError::Malformed("there are too many layers"));
+        }
+        // What is missing is noticed before room is made for any of it.
+        let layers = (0..count).map(|_| PackedLayer::read(&mut bytes, size)).collect::<Result<_, _>>()?;
+        if !bytes.0.is_empty() {
+            return Err(IgiError::Malformed("something follows the last layer"));
+        }
+        Ok(Self { size, record, refused, layers })
     }
-    let layers = (0..count).map(|_| read_layer(&mut bytes, size)).collect::<Result<_, _>>()?;
-    if !bytes.0.is_empty() {
-        return Err(IgiError::Malformed("something follows the last layer"));
+
+    fn unpack(self) -> Result<SavedFilm, IgiError> {
+        let Self { size, record, refused, layers } = self;
+        let layers = layers.into_iter().map(|layer| layer.unpack(size)).collect::<Result<_, _>>()?;
+        Ok(SavedFilm { film: FilmState { size, layers, refused }, record: Some(record) })
     }
-    Ok(SavedFilm { film: FilmState { size, layers, refused }, record: Some(record) })
+
+    fn develop(self) -> Result<DevelopedFilm, IgiError> {
+        let Self { size, record, layers, .. } = self;
+        let counted = layers.iter().any(|layer| layer.kind == LayerKind::PerPixel);
+        let image = XyzImage::from_chunks(size, counted, BLOCK, Room::default, |room, i, out, missing| {
+            layers.iter().try_for_each(|layer| layer.develop(size, i, room, out, missing))
+        })?;
+        Ok(DevelopedFilm { image, record: Some(record) })
+    }
 }
 
 /// The size that the header of version 1 tells.
@@ -101,30 +229,86 @@ fn read_run(bytes: &mut Bytes<'_>) -> Result<Run, IgiError> {
     if run.end < run.first { Err(IgiError::Malformed("a run ends before it begins")) } else { Ok(run) }
 }
 
-fn read_layer(bytes: &mut Bytes<'_>, size: FilmSize) -> Result<Layer, IgiError> {
-    const WHAT: &str = "a layer";
-    let kind = match bytes.u32(WHAT)? {
-        0 => LayerKind::PerPixel,
-        1 => LayerKind::PerScreen,
-        _ => return Err(IgiError::Malformed("a layer is of no known kind")),
-    };
-    let name = bytes.text(WHAT)?;
-    let [n_samples, n_idle, b_sum, b_count] =
-        [bytes.f64(WHAT)?, bytes.f64(WHAT)?, bytes.f64(WHAT)?, bytes.f64(WHAT)?];
-    let totals = Totals { n_samples, n_idle, b_sum, b_count };
-    if ![n_samples, n_idle, b_sum, b_count].iter().all(|v| v.is_finite() && *v >= 0.0) {
-        return Err(IgiError::Malformed("a number of samples is negative or not finite"));
+/// A layer whose sums and counts are still packed.
+struct PackedLayer<'a> {
+    kind: LayerKind,
+    name: String,
+    totals: Totals,
+    sums: Packed<'a>,
+    counts: Packed<'a>,
+}
+
+/// What unpacking needs room for.
+#[derive(Default)]
+struct Room {
+    planes: Vec<u8>,
+    sums: Vec<[f64; 4]>,
+    counts: Vec<f64>,
+}
+
+impl<'a> PackedLayer<'a> {
+    fn read(bytes: &mut Bytes<'a>, size: FilmSize) -> Result<Self, IgiError> {
+        const WHAT: &str = "a layer";
+        let kind = match bytes.u32(WHAT)? {
+            0 => LayerKind::PerPixel,
+            1 => LayerKind::PerScreen,
+            _ => return Err(IgiError::Malformed("a layer is of no known kind")),
+        };
+        let name = bytes.text(WHAT)?;
+        let [n_samples, n_idle, b_sum, b_count] =
+            [bytes.f64(WHAT)?, bytes.f64(WHAT)?, bytes.f64(WHAT)?, bytes.f64(WHAT)?];
+        let totals = Totals { n_samples, n_idle, b_sum, b_count };
+        if ![n_samples, n_idle, b_sum, b_count].iter().all(|v| v.is_finite() && *v >= 0.0) {
+            return Err(IgiError::Malformed("a number of samples is negative or not finite"));
+        }
+        let pixels = size.internal_pixels();
+        let sums = Packed::take(bytes, 4 * pixels)?;
+        let counts = Packed::take(bytes, kind.count_slots(pixels))?;
+        Ok(Self { kind, name, totals, sums, counts })
     }
-    let pixels = size.internal_pixels();
-    // What is missing is noticed before room is made for it.
-    let packed = Packed::take(bytes, 4 * pixels)?;
-    let mut sums = fresh(vec![[0.0; 4]; pixels]);
-    packed.unpack(sums.as_flattened_mut())?;
-    let packed = Packed::take(bytes, kind.count_slots(pixels))?;
-    let mut counts = fresh(vec![0.0; kind.count_slots(pixels)]);
-    packed.unpack(&mut counts)?;
+
+    fn unpack(self, size: FilmSize) -> Result<Layer, IgiError> {
+        let Self { kind, name, totals, sums: packed_sums, counts: packed_counts } = self;
+        let pixels = size.internal_pixels();
+        let mut sums = fresh(vec![[0.0; 4]; pixels]);
+        packed_sums.unpack(sums.as_flattened_mut())?;
+        let mut counts = fresh(vec![0.0; kind.count_slots(pixels)]);
+        packed_counts.unpack(&mut counts)?;
+        check_counts(&counts)?;
+        Ok(Layer { kind, name, sums, counts, totals })
+    }
+
+    /// Adds the radiance of block `i` of pixels, as many as a block of counts has.
+    fn develop(
+        &self,
+        size: FilmSize,
+        i: usize,
+        room: &mut Room,
+        out: &mut [[f32; 4]],
+        missing: &mut [bool],
+    ) -> Result<(), IgiError> {
+        /// Blocks of sums to one of counts, and the pixels of each.
+        const PARTS: usize = 4;
+        const PART: usize = BLOCK / PARTS;
+        let Room { planes, sums, counts } = room;
+        counts.resize(self.kind.count_slots(out.len()), 0.0);
+        if !counts.is_empty() {
+            self.counts.unpack_block(i, planes, counts)?;
+            check_counts(counts)?;
+        }
+        for (part, (out, missing)) in out.chunks_mut(PART).zip(missing.chunks_mut(PART)).enumerate() {
+            sums.resize(out.len(), [0.0; 4]);
+            self.sums.unpack_block(i * PARTS + part, planes, sums.as_flattened_mut())?;
+            let counts = counts.get(part * PART..).unwrap_or_default();
+            develop_layer(self.kind, &self.totals, size.internal_pixels(), (sums, counts), out, missing);
+        }
+        Ok(())
+    }
+}
+
+fn check_counts(counts: &[f64]) -> Result<(), IgiError> {
     if counts.iter().any(|&n| n < 0.0) {
         return Err(IgiError::Malformed("a pixel has a negative number of samples"));
     }
-    Ok(Layer { kind, name, sums, counts, totals })
+    Ok(())
 }

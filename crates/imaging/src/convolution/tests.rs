@@ -5,7 +5,7 @@ use crate::Region;
 use indigo_film::FilmSize;
 
 fn kernel(plane: &Plane, value: impl Fn(i64, i64) -> f64 + Sync) -> Spectrum {
-    let [spectrum] = plane.spectra(|x, y| [value(x, y)]);
+    let [spectrum] = plane.spectra(Symmetry::Opposite, &mut Room::default(), |x, y| [value(x, y)]);
     spectrum
 }
 
@@ -15,7 +15,13 @@ fn convolve(plane: &Plane, kernel: &Spectrum, value: impl Fn(usize, usize) -> f3
     let at = |i: usize| [value(i % plane.width, i / plane.width); 4];
     let pixels: Vec<_> = (0..size.pixels()).map(at).collect();
     let mut image = XyzImage { size, missing: vec![false; pixels.len()], pixels };
-    plane.convolve(&mut image, Window::of(size, Region::whole(size)), [kernel; 3], |_, _, v| v);
+    plane.convolve(
+        &mut image,
+        Window::of(size, Region::whole(size)),
+        [kernel; 3],
+        &mut Room::default(),
+        |_, _, v| v,
+    );
     image.pixels.iter().map(|p| p[1]).collect()
 }
 
@@ -42,6 +48,19 @@ fn it_is_the_sum_over_all_pixels() {
         let want = sum + (1.0 - inside) * f64::from(picture(x, y));
         assert!((f64::from(*got) - want).abs() < 1e-5 * sum, "{x} {y}: {got} instead of {want}");
     }
+}
+
+/// What is the same to the left and to the right may be said to be so, and is convolved alike.
+#[test]
+fn mirrored_kernels_are_made_of_a_half() {
+    let plane = Plane::new(13, 6);
+    let value = |x: i64, y: i64| 1.0 / (1.0 + (x * x + 2 * y * y) as f64);
+    let [mirrored] = plane.spectra(Symmetry::Mirror, &mut Room::default(), |x, y| {
+        assert!(x >= 0 && y >= 0);
+        [value(x, y)]
+    });
+    let whole = kernel(&plane, value);
+    assert!(mirrored.values == whole.values && mirrored.outside == whole.outside);
 }
 
 #[test]

@@ -61,9 +61,12 @@ impl Spread {
             let beyond = field.beyond(last / lambda);
             sum.iter_mut().zip(weights).for_each(|(s, w)| *s += w * beyond);
         }
+        // All sectors together where they are alike.
+        let half_turn = [field.sector_widths().iter().sum()];
+        let widths = if self.kept == 1 { &half_turn } else { field.sector_widths() };
         for (ring, edges) in self.density.chunks_exact(self.kept).zip(self.radii.windows(2)) {
             let squares = edges[1] * edges[1] - edges[0] * edges[0];
-            for (d, width) in ring.iter().cycle().zip(field.sector_widths()) {
+            for (d, width) in ring.iter().zip(widths) {
                 let area = squares * width;
                 sum.iter_mut().zip(d).for_each(|(s, &d)| *s += area * f64::from(d));
             }

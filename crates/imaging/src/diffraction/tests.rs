@@ -3,7 +3,7 @@
 use super::spread::Spread;
 use super::{Diffraction, Kernel, NEAR, SPACING};
 use crate::Region;
-use crate::window::Window;
+use crate::convolution::Room;
 use indigo_camera::{Aperture, Blades, FarField, Pupil};
 use indigo_film::{FilmSize, XyzImage};
 use indigo_spectrum::observer::cmf;
@@ -310,12 +310,13 @@ fn two_sizes_are_held() {
     let diffraction = Diffraction::new(Pupil::new(Aperture::Circular, None), [2e-4, 2e-4]);
     let prepared = |side: u32| {
         let size = FilmSize::new(side, side, 1).unwrap();
-        let window = Window::of(size, Region::whole(size));
-        diffraction.prepared(window, size).unwrap()
+        diffraction.prepared([side as usize; 2], size, &mut Room::default()).unwrap()
     };
     let [a, b] = [8, 12].map(prepared);
     assert!(Arc::ptr_eq(&a, &prepared(8)) && Arc::ptr_eq(&b, &prepared(12)));
     assert_eq!((a.plane.width, b.plane.width), (8, 12));
-    prepared(16);
+    // In advance, too.
+    diffraction.prepare(FilmSize::new(16, 16, 1).unwrap(), Region::whole(FilmSize::new(16, 16, 1).unwrap()));
+    assert_eq!(diffraction.prepared.lock().unwrap()[0].plane.width, 16);
     assert!(Arc::ptr_eq(&b, &prepared(12)) && !Arc::ptr_eq(&a, &prepared(8)));
 }

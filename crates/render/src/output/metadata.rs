@@ -2,16 +2,16 @@
 
 use super::SaveJob;
 use crate::calendar::Moment;
-use indigo_film::{FilmRecord, SavedFilm};
+use indigo_film::{FilmRecord, FilmSize};
 use indigo_imaging::{Metadata, RenderFacts};
 use indigo_scene::{DIFFRACTION_OF_RAYS, Development};
 use std::time::SystemTime;
 
 /// How a film was rendered and is developed, and by what camera.
-pub(super) fn of(job: &SaveJob, saved: &SavedFilm) -> Metadata {
+pub(super) fn of(job: &SaveJob, size: FilmSize, record: Option<&FilmRecord>) -> Metadata {
     let nothing = FilmRecord::default();
-    let record = saved.record.as_ref().unwrap_or(&nothing);
-    let mut metadata = render_facts(job, saved, record).metadata();
+    let record = record.unwrap_or(&nothing);
+    let mut metadata = render_facts(job, size, record).metadata();
     let Development { picture, camera, .. } = &job.development;
     picture.describe(&mut metadata);
     if let Some(filter) = record.setting("splat_filter") {
@@ -30,9 +30,9 @@ pub(super) fn of(job: &SaveJob, saved: &SavedFilm) -> Metadata {
     metadata
 }
 
-fn render_facts(job: &SaveJob, saved: &SavedFilm, record: &FilmRecord) -> RenderFacts {
+fn render_facts(job: &SaveJob, size: FilmSize, record: &FilmRecord) -> RenderFacts {
     let Development { transport, output, .. } = &job.development;
-    let (size, metropolis) = (saved.film.size, transport.metropolis);
+    let metropolis = transport.metropolis;
     RenderFacts {
         version: job.version.clone(),
         scene_path: output.scene_path.clone(),

@@ -1,11 +1,12 @@
 //! What pixels show, in a scene where it can be told without rendering.
 
-use super::common::scene;
 use super::common::text::{
     background, basic, diffuse, flat_camera, grey, medium, null, scene_file, settings, specular, sphere,
     uniform,
 };
-use indigo_film::FirstHit;
+use super::common::{film, scene};
+use indigo_film::{Filter, FirstHit};
+use indigo_imaging::{Region, coverage, untonemapped};
 use indigo_render::first_hits::SceneFirstHits;
 use indigo_scene::Scene;
 use indigo_spectrum::adaptation::rgb_of_xyz;
@@ -71,6 +72,40 @@ fn pixels_show_what_the_camera_first_meets() {
     // The ball has an albedo of a half: coverage goes with it, whichever wavelengths hit.
     for hit in row {
         assert!((0.5 * hit.coverage - hit.albedo[1]).abs() < 1e-4, "{hit:?}");
+    }
+}
+
+/// Coverage has the filters of the light that it goes with, also where they are negative, and up to the borders of a region:
+/// it is what many samples of the film tell. A mean by area would be off by 0.1 beside edges.
+#[test]
+fn coverage_goes_with_the_light() {
+    const CUBIC: &str = "<mn_cubic><blur>0.2</blur><ring>0.6</ring></mn_cubic>";
+    let filters = format!("<splat_filter>{CUBIC}</splat_filter><downsize_filter>{CUBIC}</downsize_filter>");
+    let region = "<render_region><x1>5</x1><y1>3</y1><x2>20</x2><y2>13</y2></render_region>";
+    for (factor, region) in [(1, ""), (2, region), (3, region)] {
+        let factor = format!("<super_sample_factor>{factor}</super_sample_factor>");
+        let scene = ball_on_floor(&format!("<max_depth>0</max_depth>{factor}{filters}{region}"));
+        let filter = Filter::MitchellNetravali { blur: 0.2, ring: 0.6 };
+        let region = scene.film.region.map(|[x, y]| {
+            Region::new([x[0], y[0]], [x[1], y[1]], scene.film.size).expect("a region of the picture")
+        });
+        let samples = untonemapped(&film(&scene, 3, 1024).develop(), filter, region);
+        let size = scene.film.size;
+        let found = SceneFirstHits::of(Arc::new(scene));
+        let covered = coverage(size, found.weights(), filter, region);
+        let (mut squares, mut edges, mut by_area) = (0.0, 0, 0.0);
+        for ((pixel, covered), hit) in samples.pixels.iter().zip(covered).zip(found.get()) {
+            // Weights of either sign leave some noise in samples, and none in what has no edge near.
+            if (pixel[3] - pixel[3].round()).abs() > 0.03 {
+                edges += 1;
+                squares += (pixel[3] - covered).powi(2);
+                by_area += (pixel[3] - hit.coverage).powi(2);
+            } else {
+                assert!((pixel[3] - covered).abs() < 0.05, "{pixel:?} {covered}");
+            }
+        }
+        let [off, by_area] = [squares, by_area].map(|s| (s / edges as f32).sqrt());
+        assert!(edges >= 10 && off < 0.03 && by_area > 2.0 * off, "{factor}: {edges} {off} {by_area}");
     }
 }
 

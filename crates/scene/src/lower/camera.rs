@@ -150,14 +150,12 @@ pub(super) fn settings_without_camera(settings: &Settings) {
 
 /// The aperture with what stands before it, which matters to diffraction alone.
 fn pupil(node: &Node, aperture: &Aperture, diffraction: Diffraction, context: &mut Context) -> Pupil {
-    let map = node.opt_text("obstacle_map");
+    let open = Pupil::new(aperture.clone(), None);
+    let Some(path) = node.opt_text("obstacle_map") else { return open };
     // Looked at even where it does nothing: its faults are not to come up when diffraction is switched on.
-    let obstacles = map.as_ref().and_then(|path| aperture::obstacles(&path.value, path.span, context));
-    if diffraction == Diffraction::Off {
-        return Pupil::new(aperture.clone(), None);
-    }
-    let pupil = Pupil::new(aperture.clone(), obstacles);
-    if let Some(path) = map.filter(|_| pupil.is_dark()) {
+    let Some(obstacles) = aperture::obstacles(&path.value, path.span, context) else { return open };
+    let pupil = Pupil::new(aperture.clone(), Some(obstacles));
+    if pupil.is_dark() {
         context.sink.push(
             Diagnostic::error(
                 codes::BAD_FILE,
@@ -166,8 +164,21 @@ fn pupil(node: &Node, aperture: &Aperture, diffraction: Diffraction, context: &m
             )
             .expected("expected an image that is not black where the aperture is open"),
         );
+        return open;
     }
-    pupil
+    if pupil.is_unobstructed() {
+        // Diffraction is of the opening's shape, and the exposure goes by the aperture alone.
+        context.sink.push(
+            Diagnostic::warning(
+                codes::FILE_NOTE,
+                path.span,
+                format!("{} is the same all over: there is no obstacle in it", path.value),
+            )
+            .hint("make it dark where something stands before the lens, or leave <obstacle_map> out"),
+        );
+        return open;
+    }
+    if diffraction == Diffraction::Off { open } else { pupil }
 }
 
 /// Sets the focus by what the camera sees in its direction, if it is to find its focus itself: the first surface that

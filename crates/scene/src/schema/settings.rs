@@ -80,7 +80,8 @@ pub static RENDERER_SETTINGS: Block = Block::new(
             "false",
             "Whether an EXR with layers is saved beside the PNG: the whole picture in cd/m² (`R`, `G`, `B`); the foreground's light \
              without the surroundings (`foreground.R`, `foreground.G`, `foreground.B`) with the part of the pixel that it covers \
-             (`foreground.A`), premultiplied, so that `foreground` goes over any other picture; the light that the surroundings send \
+             (`foreground.A`, by the same filters as the light, but without diffraction), premultiplied, so that `foreground` goes over any \
+             other picture; the light that the surroundings send \
              straight into the camera (`background.R`, `background.G`, `background.B`), which with the foreground's makes up \
              the picture; its light that was scattered once at most (`direct.R`, `direct.G`, `direct.B`) and more often (`indirect.R`, \
              `indirect.G`, `indirect.B`), which make up the picture, too; and of what the camera first meets the reflectance (`albedo.R`, `albedo.G`, `albedo.B`), the normal in the world \

@@ -14,10 +14,12 @@ impl Resolver for Memory {
             "broken.obj" => b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n",
             "flat.obj" => b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 1 1\n",
             "broken.png" => b"not a picture",
-            "tiny.png" => return Ok(picture(path, [4, 4])),
-            "oblong.png" => return Ok(picture(path, [1024, 512])),
-            "odd.png" => return Ok(picture(path, [600, 600])),
-            "black.png" => return Ok(picture(path, [512, 512])),
+            "tiny.png" => return Ok(picture(path, [4, 4], |_| 0.0)),
+            "grey.png" => return Ok(picture(path, [4, 4], |_| 0.5)),
+            "dusty.png" => return Ok(picture(path, [4, 4], |i| if i == 5 { 0.0 } else { 1.0 })),
+            "oblong.png" => return Ok(picture(path, [1024, 512], |_| 0.0)),
+            "odd.png" => return Ok(picture(path, [600, 600], |_| 0.0)),
+            "black.png" => return Ok(picture(path, [512, 512], |_| 0.0)),
             "inifile.xml" => {
                 b"<settings><width>40</width><height>30</height><max_depth>7</max_depth></settings>"
             }
@@ -27,9 +29,9 @@ impl Resolver for Memory {
     }
 }
 
-/// A black PNG.
-pub fn picture(path: &str, [width, height]: [u32; 2]) -> Resolved {
-    let pixels = vec![[0.0; 4]; (width * height) as usize];
+/// A grey PNG whose texels are told by their numbers.
+fn picture(path: &str, [width, height]: [u32; 2], texel: impl Fn(u32) -> f32) -> Resolved {
+    let pixels = (0..width * height).map(|i| [texel(i); 4]).collect();
     let picture = indigo_imaging::Picture { width, height, pixels };
     let bytes = indigo_imaging::png::encode(&picture, &indigo_imaging::Metadata::default(), Depth::Eight);
     Resolved { path: path.to_owned(), bytes: bytes.expect("a picture with pixels").into() }

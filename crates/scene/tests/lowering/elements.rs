@@ -1,6 +1,7 @@
 //! Elements that cannot be rendered as they are.
 
 use super::common::*;
+use indigo_camera::{Aperture, Blades};
 
 #[test]
 fn the_head_is_without_a_complaint() {
@@ -129,6 +130,17 @@ fn apertures() {
     assert_eq!(found(&good), Vec::<String>::new());
 }
 
+/// Each number of the blades shapes the opening.
+#[test]
+fn blades_reach_the_camera() {
+    let shape = "<aperture_shape><generated><num_blades>5</num_blades><start_angle>0.4</start_angle><blade_offset>0.35</blade_offset><blade_curvature_radius>0.8</blade_curvature_radius></generated></aperture_shape></camera>";
+    let text = format!("{HEAD}{}</scene>", CAMERA.replace("</camera>", shape));
+    let scene = loaded(&text).scene.expect("a scene without faults");
+    let expected =
+        Aperture::generated(&Blades::new(5, 0.4, 0.35, 0.8).expect("blades that leave an opening"));
+    assert_eq!(scene.camera.aperture().draw(64), expected.draw(64));
+}
+
 #[test]
 fn a_table_in_nanometres_is_suspect() {
     let table = |start: &str, end: &str| {
@@ -168,10 +180,11 @@ fn obstacles() {
     };
     for diffraction in [false, true] {
         assert_eq!(with("nowhere.png", diffraction), ["E0302"]);
+        assert_eq!(with("broken.png", diffraction), ["E0303"]);
+        assert_eq!(with("tiny.png", diffraction), ["E0303"], "all black");
+        assert_eq!(with("grey.png", diffraction), ["W0303"], "the same all over");
+        assert_eq!(with("dusty.png", diffraction), [""; 0]);
     }
-    assert_eq!(with("tiny.png", false), Vec::<&str>::new());
-    assert_eq!(with("broken.png", true), ["E0303"]);
-    assert_eq!(with("tiny.png", true), ["E0303"], "all black");
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Settings, and the layers that they come from.
 
 use super::common::*;
+use indigo_film::Filter;
 use indigo_scene::{LoadOptions, Origin, Override, load};
 
 #[test]
@@ -136,6 +137,21 @@ fn threads_have_a_ceiling() {
     assert_eq!(with("1024"), []);
     assert_eq!(with("1025"), [("E0203", 2)]);
     assert_eq!(with("0"), [("E0203", 2)]);
+}
+
+/// Filters are those that are listed, with all their numbers, on the film and on the picture.
+#[test]
+fn filters_reach_the_scene() {
+    let cubic = |blur: f64, ring: f64| format!("<mn_cubic><blur>{blur}</blur><ring>{ring}</ring></mn_cubic>");
+    let filters = format!(
+        "<width>64</width><splat_filter>{}</splat_filter><downsize_filter>{}</downsize_filter>",
+        cubic(0.5, 0.7),
+        cubic(0.3, 0.1)
+    );
+    let text = format!("{HEAD}{CAMERA}</scene>").replace("<width>64</width>", &filters);
+    let scene = loaded(&text).scene.expect("a scene without faults");
+    assert_eq!(scene.film.splat, Filter::MitchellNetravali { blur: 0.5, ring: 0.7 });
+    assert_eq!(scene.picture.downsize, Filter::MitchellNetravali { blur: 0.3, ring: 0.1 });
 }
 
 /// What is asked for of the picture and its files reaches the scene, and coverage is left to camera samples.
