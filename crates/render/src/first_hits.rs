@@ -95,7 +95,9 @@ impl Band {
             }
             for x in columns[0].saturating_sub(REACH)..(columns[1] + REACH).min(size.width()) {
                 let (hit, rays) = tracer.of_pixel(scene, [x, y]);
-                rays.iter().for_each(|ray| splat(scene, ray, first, &mut band.weights));
+                for ray in &rays {
+                    splat(scene, ray, first, &mut band.weights);
+                }
                 // Those round a region only splat into it.
                 if is_rendered(x, y) {
                     row[x as usize] = hit;

@@ -132,7 +132,7 @@ impl FarField {
         let rings = self.radii.len() - 1;
         let first = self.radii.partition_point(|&r| r < 0.5 * LAST as f64);
         let all = (self.radii[rings] / self.radii[first]).ln();
-        let mut sums = [0.0; SECTORS];
+        let mut sums = vec![0.0; SECTORS];
         for i in first..rings {
             let (lo, hi) = (self.radii[i], self.radii[i + 1]);
             let weight = (hi / lo).ln() / all * (0.5 * (lo + hi)).powi(3);
