@@ -9,6 +9,7 @@ mod exr_file;
 mod jpeg_frame;
 mod radiance;
 mod raster;
+mod tiff_samples;
 
 /// The widest and highest picture that is read.
 const MAX_SIDE: u32 = 32_768;

@@ -18,6 +18,7 @@ pub mod phase;
 mod reflectance;
 mod scatter;
 mod shading;
+mod wrong_side;
 
 pub use bump::bumped_normal;
 pub use materials::{Interface, Leaf, Material, MaterialContext, MaterialId, MaterialResources, SurfaceKind};

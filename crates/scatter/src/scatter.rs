@@ -59,6 +59,13 @@ pub trait Scatter {
         false
     }
 
+    /// Whether light is scattered into most directions, as by a matt surface, and not only into a lobe: then what a
+    /// leaning shading normal sends to the wrong side may come out anywhere. Of the kind of material, and not of
+    /// its numbers: all wavelengths must have the same answer.
+    fn is_matt(&self) -> bool {
+        false
+    }
+
     /// Whether there is anything but events of delta kind: whether the point can be connected to others.
     fn is_connectable(&self) -> bool {
         true

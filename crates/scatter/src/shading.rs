@@ -3,14 +3,15 @@
 //! **Shading normals.** The geometric normal decides on which side a direction lies, so that no light
 //! leaks through a surface; the shading normal gives the cosine. Three rules make of a model f that
 //! knows the shading normal alone a BSDF that loses no light however far that normal leans. Let c be the
-//! direction towards the camera, l that towards the light, and l* its mirror image at the surface:
+//! direction towards the camera, l that towards the light, and l* a direction on the wrong side that l stands for:
 //!
 //! 1. A camera below the shading normal's horizon, but before the surface, is taken to be as far above
 //!    that horizon: c becomes ĉ.
-//! 2. What f scatters to the wrong side of the surface is mirrored at it and leaves on the right side: the
-//!    light has met the flank of a neighbouring bump (as in Schüssler et al. 2017, "Microfacet-based Normal
-//!    Mapping for Robust Monte Carlo Path Tracing", whose tangential facet is a mirror, too). So light counts
-//!    from l and from l*: K(c, l) = f(ĉ, l) ⟨l·ns⟩ + f(ĉ, l*) ⟨l*·ns⟩, where ⟨⟩ is the cosine on the right side, else 0.
+//! 2. What f scatters to the wrong side of the surface leaves on the right side: the light has met the flank of a
+//!    neighbouring bump (as in Schüssler et al. 2017, "Microfacet-based Normal Mapping for Robust Monte Carlo Path
+//!    Tracing"). A lobe is mirrored at the surface, as by their tangential facet; what a matt surface scatters is spread
+//!    over the whole right side ([`WrongSide`]). So light counts from l and from l*, whose solid angle is J times that of
+//!    l: K(c, l) = f(ĉ, l) ⟨l·ns⟩ + J f(ĉ, l*) ⟨l*·ns⟩, where ⟨⟩ is the cosine on the right side, else 0.
 //! 3. Light that travels from a lamp sees the same K through its adjoint, K |c·ng| / |l·ng| (Veach 1997, section 5.3).
 //!
 //! The integral of K over l is f's own albedo, whatever ns is: nothing darkens at edges, nothing is made.
@@ -23,6 +24,7 @@
 
 use crate::materials::Leaf;
 use crate::scatter::{Crossing, Delta, LocalSample, Scatter};
+use crate::wrong_side::WrongSide;
 use indigo_math::{Frame, Real, Vec3};
 use indigo_spectrum::{LanePdf, SampledSpectrum};
 
@@ -44,6 +46,8 @@ pub struct ShadingPoint {
     /// Unit geometric normal on `wo`'s side.
     n_g: Vec3,
     wo: Vec3,
+    /// For a matt surface whose shading normal leans.
+    wrong_side: Option<WrongSide>,
 }
 
 /// The model's answer for a given direction.
@@ -83,7 +87,9 @@ impl ShadingPoint {
     #[inline]
     pub fn new(leaf: Leaf, n_g: Vec3, n_s: Vec3, wo: Vec3) -> Self {
         let side = if wo.dot(n_g) < 0.0 { -1.0 } else { 1.0 };
-        Self { leaf, frame: Frame::from_normal(n_s * side), n_g: n_g * side, wo }
+        let (n_g, n_s) = (n_g * side, n_s * side);
+        let wrong_side = if n_s != n_g && leaf.is_matt() { WrongSide::new(n_g, n_s) } else { None };
+        Self { leaf, frame: Frame::from_normal(n_s), n_g, wo, wrong_side }
     }
 
     /// The geometric normal on the side from which the surface is seen.
@@ -128,17 +134,17 @@ impl ShadingPoint {
         let (o, i) = (self.frame.to_local(self.wo), self.frame.to_local(wi));
         let (seen_o, seen_i) = (raised(o, 1.0), raised(i, sign));
         let (mut k, mut pdf, mut pdf_rev) = (SampledSpectrum::ZERO, LanePdf::ZERO, LanePdf::ZERO);
-        for l in [Some(i), self.mirrored(wi, i)].into_iter().flatten().filter(|l| l.z * sign > 0.0) {
-            pdf += self.leaf.pdf(seen_o, l, crossing);
+        for (l, density) in self.stands_for(wi, i, sign).into_iter().flatten() {
+            pdf += self.leaf.pdf(seen_o, l, crossing) * density;
             if mode == Mode::Radiance {
-                k += self.leaf.f(seen_o, l, crossing) * (l.z * sign);
+                k += self.leaf.f(seen_o, l, crossing) * (l.z * sign * density);
             }
         }
         // The same from the other end.
-        for l in [Some(o), self.mirrored(self.wo, o)].into_iter().flatten().filter(|l| l.z > 0.0) {
-            pdf_rev += self.leaf.pdf(seen_i, l, crossing.reversed());
+        for (l, density) in self.stands_for(self.wo, o, 1.0).into_iter().flatten() {
+            pdf_rev += self.leaf.pdf(seen_i, l, crossing.reversed()) * density;
             if mode == Mode::Importance {
-                k += self.leaf.f(l, seen_i, crossing) * l.z;
+                k += self.leaf.f(l, seen_i, crossing) * (l.z * density);
             }
         }
         let f_cos = self.corrected(k, crossing, mode) * self.adjoint(wi, mode);
@@ -155,7 +161,11 @@ impl ShadingPoint {
         let side = wi.dot(self.n_g);
         let is_mirrored = if is_transmitted { side > 0.0 } else { side < 0.0 };
         if is_mirrored {
-            wi -= self.n_g * (2.0 * side);
+            wi = match &self.wrong_side {
+                Some(map) if is_transmitted => -map.right(-wi),
+                Some(map) => map.right(wi),
+                None => wi - self.n_g * (2.0 * side),
+            };
         }
         if let Some(delta) = drawn.delta {
             return self.delta(&drawn, &delta, wi, mode, is_mirrored || o.z < 0.0);
@@ -204,12 +214,20 @@ impl ShadingPoint {
         })
     }
 
-    /// The mirror image at the surface of a direction, `local` in the frame, as rule 2 needs it; `None` where
-    /// both normals are one and it cannot be on the right side.
+    /// The directions that one on the right side, above (`sign` 1) or below (-1), stands for by rule 2, as far as the
+    /// model scatters there: itself, `local` in the frame, and one on the wrong side; and J of each.
     #[inline]
-    fn mirrored(&self, direction: Vec3, local: Vec3) -> Option<Vec3> {
-        (self.frame.n != self.n_g)
-            .then(|| local - self.frame.to_local(self.n_g) * (2.0 * direction.dot(self.n_g)))
+    fn stands_for(&self, direction: Vec3, local: Vec3, sign: Real) -> [Option<(Vec3, Real)>; 2] {
+        let image = if let Some(map) = &self.wrong_side {
+            let (image, density) = map.image(direction * sign);
+            Some((self.frame.to_local(image) * sign, density))
+        } else if self.frame.n != self.n_g {
+            Some((local - self.frame.to_local(self.n_g) * (2.0 * direction.dot(self.n_g)), 1.0))
+        } else {
+            // Both normals are one, and there is no wrong side.
+            None
+        };
+        [Some((local, 1.0)), image].map(|l| l.filter(|(l, _)| l.z * sign > 0.0))
     }
 
     /// The symmetric model's value as the BSDF of the path's own mode: times η_camera / η_light.

@@ -91,7 +91,7 @@ pub static TEXTURE: Block = Block::new(
             "path",
             Kind::Path,
             Presence::Required,
-            "The image file (JPEG, PNG, TGA, BMP, TIFF or EXR), relative to the scene file.",
+            "The image file (JPEG, PNG, TGA, BMP, TIFF, EXR or Radiance HDR), relative to the scene file.",
         ),
         Field::new(
             "exponent",

@@ -39,6 +39,24 @@ fn held(file: &[u8]) -> Option<u64> {
     }
 }
 
+/// Whether the file goes on to the mark of its end, after which anything may follow.
+pub(super) fn has_end(file: &[u8]) -> bool {
+    // Marks are told from numbers of a scan, where 0xFF is followed by 0 or by the number of a restart; and what comes
+    // before a scan is passed over by its length, since it may hold a small JPEG of its own.
+    let mut rest = file.get(2..).unwrap_or_default();
+    while let [first, following @ ..] = rest {
+        rest = match (first, following) {
+            (0xFF, [0xD9, ..]) => return true,
+            (0xFF, [0x00 | 0x01 | 0xD0..=0xD8, after @ ..]) => after,
+            (0xFF, [marker, high, low, ..]) if *marker != 0xFF => {
+                following.get(1 + usize::from(u16::from_be_bytes([*high, *low]))..).unwrap_or_default()
+            }
+            _ => following,
+        };
+    }
+    false
+}
+
 struct Frame {
     is_progressive: bool,
     components: u8,
@@ -88,6 +106,18 @@ mod tests {
                 expected,
                 "{frame:x} {factors:x?} {scan}"
             );
+        }
+    }
+
+    /// A thumbnail's end is none, and neither are numbers of a scan.
+    #[test]
+    fn the_end_is_that_of_the_picture() {
+        let head = [&[0xFF, 0xD8, 0xFF, 0xE1, 0, 4, 0xFF, 0xD9], &header(0xC0, &[0x11; 3], 3)[2..]].concat();
+        let scan = [0x12, 0xFF, 0x00, 0xD9, 0xFF, 0xD3, 0x55, 0xFF, 0xFF];
+        let sound = [head.as_slice(), &scan, &[0xD9, 7]].concat();
+        assert!(has_end(&sound));
+        for end in 0..sound.len() - 2 {
+            assert!(!has_end(&sound[..end]), "{end}");
         }
     }
 

@@ -4,8 +4,8 @@ use std::io::Cursor;
 
 use ::image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 
-use super::{Image, MAX_SIDE, Pixels, check_memory, check_sides, decoder_error, jpeg_frame};
-use crate::error::FormatError;
+use super::{Image, Pixels, check_memory, check_sides, decoder_error, jpeg_frame, tiff_samples};
+use crate::error::{FormatError, Position};
 
 pub(super) fn is_known(format: ImageFormat) -> bool {
     use ImageFormat::{Bmp, Jpeg, Png, Tga, Tiff};
@@ -28,8 +28,7 @@ pub(super) fn decode(format: ImageFormat, bytes: &[u8], most_bytes: u64) -> Resu
     let complaint = |error: ::image::ImageError| decoder_error(name(format), &error);
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     let mut limits = Limits::default();
-    limits.max_image_width = Some(MAX_SIDE);
-    limits.max_image_height = Some(MAX_SIDE);
+    // Sides are checked by us, who tell what they may be.
     limits.max_alloc = Some(most_bytes);
     reader.limits(limits);
     let decoder = reader.into_decoder().map_err(complaint)?;
@@ -39,6 +38,18 @@ pub(super) fn decode(format: ImageFormat, bytes: &[u8], most_bytes: u64) -> Resu
     let stored_bits = decoder.original_color_type().bits_per_pixel();
     let besides = bytes_beside_a_texel(format, bytes, texel_bytes, stored_bits.into());
     check_memory(u64::from(width) * u64::from(height) * (texel_bytes + besides), most_bytes)?;
+    match format {
+        ImageFormat::Tiff => tiff_samples::check(bytes, decoder.color_type())?,
+        // The decoder makes grey of what is missing.
+        ImageFormat::Jpeg if !jpeg_frame::has_end(bytes) => {
+            return Err(FormatError::new(
+                Position::Byte(bytes.len()),
+                "a whole JPEG file, with the mark of its end",
+                "the end of the file",
+            ));
+        }
+        _ => {}
+    }
     let picture = DynamicImage::from_decoder(decoder).map_err(complaint)?;
     let (channels, pixels) =
         texels(picture).ok_or_else(|| decoder_error(name(format), &"texels of a kind that is not known"))?;

@@ -107,6 +107,48 @@ fn a_jpeg_keeps_a_flat_colour() {
     }
 }
 
+/// A decoder makes grey of what is missing.
+#[test]
+fn a_jpeg_that_is_cut_off_is_refused() {
+    let noise =
+        RgbImage::from_fn(64, 64, |x, y| Rgb([0, 1, 2].map(|c| ((x * 37) ^ (y * 101) ^ (c * 59)) as u8)));
+    let whole = encode(&noise.into(), ImageFormat::Jpeg);
+    decode("a.jpg", &whole).unwrap();
+    for end in [whole.len() / 2, whole.len() * 9 / 10, whole.len() - 1] {
+        let error = decode("a.jpg", &whole[..end]).unwrap_err();
+        assert!(error.expected.contains("whole JPEG"), "{error}");
+    }
+}
+
+/// Of two texels, with three samples each.
+fn tiff_of<C: ::tiff::encoder::colortype::ColorType>(samples: &[C::Inner]) -> Vec<u8>
+where
+    [C::Inner]: ::tiff::encoder::TiffValue,
+{
+    let mut bytes = Cursor::new(Vec::new());
+    ::tiff::encoder::TiffEncoder::new(&mut bytes).unwrap().write_image::<C>(2, 1, samples).unwrap();
+    bytes.into_inner()
+}
+
+/// Samples of 32 bits may be whole numbers: as those of single precision they would be nonsense.
+#[test]
+fn samples_of_a_tiff_are_what_they_are_taken_for() {
+    use ::tiff::encoder::colortype::{RGB32, RGB32Float};
+    let floats = [0.5, 2.0, 0.25, 1.0, 0.0, 8.0_f32];
+    assert_eq!(
+        decode("a.tif", &tiff_of::<RGB32Float>(&floats)).unwrap().pixels,
+        Pixels::F32(floats.to_vec())
+    );
+    let mut whole_numbers = tiff_of::<RGB32>(&[1 << 31; 6]);
+    assert!(decode("a.tif", &whole_numbers).is_err());
+    // A file need not say that they are: another tag in place of the one that does, 339 of type 3.
+    let entry = [83, 1, 3, 0];
+    let at = whole_numbers.windows(4).position(|bytes| bytes == entry).unwrap();
+    whole_numbers[at] += 1;
+    let error = decode("a.tif", &whole_numbers).unwrap_err();
+    assert!(error.expected.contains("8 or 16 bits"), "{error}");
+}
+
 #[test]
 fn radiance_hdr_keeps_values_beyond_one() {
     let bright = ImageBuffer::from_pixel(16, 8, Rgb([64.0_f32, 2.0, 0.5]));

@@ -14,6 +14,7 @@ use indigo_scatter::{Interface, Mode, ShadingPoint};
 use indigo_scene::Scene;
 use indigo_spectrum::{SampledSpectrum, SampledWavelengths};
 use indigo_testkit::quadrature::sphere;
+use std::f64::consts::PI;
 
 pub const RADIANCE: f64 = 1.0e5;
 const WHITE: &str = "<uniform><value>1</value></uniform>";
@@ -104,9 +105,9 @@ fn with_technique(mut scene: Scene, bidirectional: bool) -> Scene {
     scene
 }
 
-/// Light of one lamp far away, on a sheet raised by a ramp, is that on a sheet that leans as much: n · l with
-/// n = (-slope, 0, 1), under any scale of the coordinates and of the mesh. (Not steeper than 0.75, where the
-/// mirror image of the light at the sheet would begin to light the flank, too.)
+/// Light of one lamp far away, on a sheet raised by a ramp, is that on a sheet that leans as much, under any scale of
+/// the coordinates and of the mesh: n · l with n = (-slope, 0, 1), and besides what such a sheet scatters below the flat one, spread
+/// over what is above it.
 #[test]
 fn a_bump_map_leans_the_surface_by_its_slope() {
     let lit = |bump: &str, scale: f64, tiles: f64| {
@@ -140,7 +141,11 @@ fn a_bump_map_leans_the_surface_by_its_slope() {
         // The ramp rises by 1 over one tile, which is 2 · scale / tiles wide.
         let height = slope * 2.0 * scale / tiles;
         let bump = format!("<bump_map><path>ramp.exr</path><exponent>1</exponent><b>{height}</b></bump_map>");
-        let expected = f64::max(0.0, (0.8 * slope + 0.6) / f64::hypot(1.0, slope) / 0.6);
+        // Angles from the flat sheet, on the side to which the other leans: of that, and of the light.
+        let lean = f64::atan(f64::abs(slope));
+        let light = if slope > 0.0 { f64::asin(0.6) } else { PI - f64::asin(0.6) };
+        let spread = lean / PI * f64::sin(lean - light * lean / PI);
+        let expected = (f64::max(0.0, f64::sin(light + lean)) + spread) / 0.6;
         let measured = lit(&bump, scale, tiles);
         assert_near(
             &format!("slope {slope} at {scale}, {tiles}"),

@@ -94,6 +94,11 @@ pub struct DiffuseLeaf {
 
 impl Scatter for DiffuseLeaf {
     #[inline]
+    fn is_matt(&self) -> bool {
+        true
+    }
+
+    #[inline]
     fn f(&self, _wo: Vec3, _wi: Vec3, crossing: Crossing) -> SampledSpectrum {
         if crossing == Crossing::Reflect { self.f } else { SampledSpectrum::ZERO }
     }

@@ -100,6 +100,11 @@ pub struct DiffuseTransmitterLeaf {
 
 impl Scatter for DiffuseTransmitterLeaf {
     #[inline]
+    fn is_matt(&self) -> bool {
+        true
+    }
+
+    #[inline]
     fn f(&self, _wo: Vec3, _wi: Vec3, crossing: Crossing) -> SampledSpectrum {
         if crossing == Crossing::Reflect { SampledSpectrum::ZERO } else { self.f }
     }

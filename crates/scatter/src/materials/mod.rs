@@ -299,6 +299,13 @@ macro_rules! registry {
             }
 
             #[inline]
+            fn is_matt(&self) -> bool {
+                match self {
+                    $(Self::$material(m) => m.is_matt(),)*
+                }
+            }
+
+            #[inline]
             fn is_connectable(&self) -> bool {
                 match self {
                     $(Self::$material(m) => m.is_connectable(),)*

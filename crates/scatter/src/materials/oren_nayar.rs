@@ -207,6 +207,11 @@ impl OrenNayarLeaf {
 
 impl Scatter for OrenNayarLeaf {
     #[inline]
+    fn is_matt(&self) -> bool {
+        true
+    }
+
+    #[inline]
     fn f(&self, wo: Vec3, wi: Vec3, crossing: Crossing) -> SampledSpectrum {
         if crossing != Crossing::Reflect {
             return SampledSpectrum::ZERO;

@@ -450,6 +450,11 @@ impl PhongLeaf {
 
 impl Scatter for PhongLeaf {
     #[inline]
+    fn is_matt(&self) -> bool {
+        matches!(self.fresnel, Fresnel::Coat { .. })
+    }
+
+    #[inline]
     fn f(&self, wo: Vec3, wi: Vec3, crossing: Crossing) -> SampledSpectrum {
         let Some(h) = (wo + wi).try_normalized().filter(|_| crossing == Crossing::Reflect) else {
             return SampledSpectrum::ZERO;

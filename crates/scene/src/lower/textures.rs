@@ -92,12 +92,19 @@ fn warn_of_generated_coordinates(node: &Node, context: &mut Context) {
 }
 
 fn decode(file: &str, bytes: &[u8], span: Span, context: &mut Context) -> Image {
-    let image = image::decode(file, bytes);
+    let mut image = image::decode(file, bytes);
     if let Ok(Image { primaries: Some(primaries), .. }) = &image
         && rec709_of(*primaries) != Some(Mat3::IDENTITY)
     {
         let note = format!("{file}: its colours are not those of Rec. 709, and are taken as if they were");
         context.sink.push(Diagnostic::warning(codes::FILE_NOTE, span, note));
+    }
+    if let Ok(Image { pixels: Pixels::F32(values), .. }) = &mut image {
+        let bad = drop_no_numbers(values);
+        if bad > 0 {
+            let note = format!("{file}: {bad} of its values are infinite or no numbers, and taken as 0");
+            context.sink.push(Diagnostic::warning(codes::BAD_TEXELS, span, note));
+        }
     }
     image.unwrap_or_else(|error| {
         context.sink.push(
@@ -106,6 +113,12 @@ fn decode(file: &str, bytes: &[u8], span: Span, context: &mut Context) -> Image 
         );
         grey()
     })
+}
+
+/// Sets values that are infinite or no numbers to 0, and tells how many they were.
+fn drop_no_numbers(values: &mut [f32]) -> usize {
+    let bad = values.iter_mut().filter(|v| !v.is_finite());
+    bad.map(|v| *v = 0.0).count()
 }
 
 fn grey() -> Image {

@@ -14,6 +14,7 @@ impl Resolver for Memory {
             "broken.obj" => b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n",
             "flat.obj" => b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 1 1\n",
             "broken.png" => b"not a picture",
+            "no_numbers.exr" => return Ok(no_numbers(path)),
             "tiny.png" => return Ok(picture(path, [4, 4], |_| 0.0)),
             "grey.png" => return Ok(picture(path, [4, 4], |_| 0.5)),
             "dusty.png" => return Ok(picture(path, [4, 4], |i| if i == 5 { 0.0 } else { 1.0 })),
@@ -34,6 +35,14 @@ fn picture(path: &str, [width, height]: [u32; 2], texel: impl Fn(u32) -> f32) ->
     let pixels = (0..width * height).map(|i| [texel(i); 4]).collect();
     let picture = indigo_imaging::Picture { width, height, pixels };
     let bytes = indigo_imaging::png::encode(&picture, &indigo_imaging::Metadata::default(), Depth::Eight);
+    Resolved { path: path.to_owned(), bytes: bytes.expect("a picture with pixels").into() }
+}
+
+/// An EXR of two texels, one of which is NaN, a number and infinite.
+fn no_numbers(path: &str) -> Resolved {
+    let pixels = vec![[f32::NAN, 0.5, f32::INFINITY, 1.0], [0.25, 0.5, 0.75, 1.0]];
+    let image = indigo_imaging::LinearImage { width: 2, height: 1, pixels };
+    let bytes = indigo_imaging::exr::encode(&image, &indigo_imaging::Metadata::default());
     Resolved { path: path.to_owned(), bytes: bytes.expect("a picture with pixels").into() }
 }
 

@@ -53,6 +53,19 @@ fn textures_need_their_picture_and_their_coordinates() {
 }
 
 #[test]
+fn texels_that_are_no_numbers_are_told_and_dark() {
+    let material = "<material><name>t</name><diffuse><albedo_texture><path>no_numbers.exr</path><exponent>1</exponent></albedo_texture></diffuse></material>";
+    let sphere = "<sphere><center>0 0 0</center><radius>1</radius><material_name>t</material_name></sphere>";
+    let line = format!("{material}{sphere}");
+    let loaded = loaded(&format!("{HEAD}{line}{CAMERA}</scene>"));
+    let told: Vec<&str> = loaded.sink.diagnostics().iter().map(|d| d.message.as_str()).collect();
+    assert!(told.len() == 1 && told[0].contains("2 of its values are infinite or no numbers"), "{told:?}");
+    let scene = loaded.scene.expect("a scene");
+    let texture = &scene.textures[0];
+    assert_eq!(texture.rgb(indigo_math::Vec2::new(0.0, 0.0)), [0.0, 0.5, 0.0]);
+}
+
+#[test]
 fn a_texture_that_nothing_uses_is_not_even_looked_for() {
     let line = "<material><name>t</name><diffuse><albedo_texture><path>none.png</path></albedo_texture></diffuse></material>";
     assert_eq!(found(&format!("{line}{CAMERA}")), Vec::<String>::new());
