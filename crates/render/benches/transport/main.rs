@@ -4,7 +4,8 @@
 //! The modes take turns of a fraction of a second, so that all see the same machine, and are timed by what the
 //! thread itself used. Options: `--scene NAME|FILE.igs` (may be repeated; all of its own without it), `--mode NAME`
 //! (likewise), `--seconds S` for each mode (20), `--target E` relMSE whose time is wanted (0.01),
-//! `--reference S` seconds for a reference that is not kept yet (240), `--list`.
+//! `--reference S` seconds for a reference that is not kept yet (240), `--list`, `--export DIR` (writes its scenes as
+//! files, for other renderers: `mitsuba.py` beside this file races one of them).
 //!
 //! References are kept in `bench-data/transport`, by the scene's name and a hash of its text. They are made by a mode
 //! that suits the scene, in two halves, whose difference tells their noise.
@@ -34,6 +35,7 @@ struct Arguments {
     target: f64,
     reference: f64,
     is_list: bool,
+    export: Option<String>,
 }
 
 fn arguments() -> Arguments {
@@ -44,6 +46,7 @@ fn arguments() -> Arguments {
         target: 0.01,
         reference: 240.0,
         is_list: false,
+        export: None,
     };
     let mut words = std::env::args().skip(1);
     while let Some(word) = words.next() {
@@ -56,6 +59,7 @@ fn arguments() -> Arguments {
             "--target" => parsed.target = number(value()),
             "--reference" => parsed.reference = number(value()),
             "--list" => parsed.is_list = true,
+            "--export" => parsed.export = Some(value()),
             // Cargo adds it.
             "--bench" => {}
             _ => panic!("unknown option {word}"),
@@ -74,6 +78,13 @@ fn main() {
     if arguments.is_list {
         for scene in own {
             println!("{}", scene.name);
+        }
+        return;
+    }
+    if let Some(folder) = arguments.export {
+        std::fs::create_dir_all(&folder).expect("a folder");
+        for scene in own {
+            std::fs::write(format!("{folder}/{}.igs", scene.name), scene.text).expect("room for a scene");
         }
         return;
     }
