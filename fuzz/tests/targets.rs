@@ -5,7 +5,7 @@ use indigo_film::{FilmRecord, FilmSize, FilmState, LayerKind, Run, igi};
 use indigo_formats::image::Pixels;
 use indigo_formats::{MeshData, MeshFormat, float_map, ies, image, nk};
 use indigo_fuzz::fuzz;
-use indigo_igs::pack::{Pack, PackLimits, PackWriter};
+use indigo_igs::pack::{MaterialPacks, Pack, PackLimits, PackWriter};
 use indigo_light::Profile;
 use indigo_scene::{LoadOptions, Loaded, load};
 
@@ -223,6 +223,46 @@ fn seeds_are_sound() {
     }
 }
 
+/// A scene that includes a packed material, which is all that there is beside it.
+struct Library<'a>(&'a [u8]);
+
+impl Resolver for Library<'_> {
+    fn read(&self, path: &str, _from: &str) -> Result<Resolved, ResolveError> {
+        let bytes: &[u8] = match path {
+            "scene.igs" => b"<scene><include><pathname>m.pigm</pathname><offset_uids>true</offset_uids></include></scene>",
+            "m.pigm" => self.0,
+            _ => return Err(ResolveError::NotFound { looked: vec![path.to_owned()] }),
+        };
+        Ok(Resolved { path: path.to_owned(), bytes: bytes.into() })
+    }
+}
+
+#[test]
+fn packed_material() {
+    let mut out = std::io::Cursor::new(vec![]);
+    let mut pack = PackWriter::new(&mut out);
+    pack.add("brick.png", include_bytes!("../seeds/picture/grey.png")).unwrap();
+    pack.finish("wall.igs", include_bytes!("../seeds/scene/material.igm")).unwrap();
+    // The writer knows packed scenes alone; names have no checksum.
+    let mut seed = out.into_inner();
+    let name = b"wall.igs";
+    let places: Vec<usize> =
+        seed.windows(name.len()).enumerate().filter(|(_, w)| w == name).map(|(i, _)| i).collect();
+    assert_eq!(places.len(), 2, "at the member, and in the list");
+    for i in places {
+        seed[i..i + name.len()].copy_from_slice(b"wall.igm");
+    }
+    let limits = || PackLimits { always_allowed: 1 << 20, ..PackLimits::default() };
+    let errors = |bytes: &[u8]| {
+        let library = Library(bytes);
+        let packs = MaterialPacks::new(&library, limits());
+        let options = LoadOptions { check_only: true, ..LoadOptions::new(&packs) };
+        load("scene.igs", &options).sink.error_count()
+    };
+    assert_eq!(errors(&seed), 1, "there is no camera, and nothing else is wrong");
+    fuzz(&[seed], |bytes| assert!(errors(bytes) > 0));
+}
+
 /// A packed scene: its list of members may promise anything, and so may each of them.
 #[test]
 fn pack() {
@@ -236,7 +276,7 @@ fn pack() {
     fuzz(&[out.into_inner()], |bytes| {
         let Ok(pack) = Pack::open(bytes.into(), &limits) else { return };
         // Some of the names are damaged, and then there may be no scene or two.
-        drop(pack.main());
+        drop((pack.main(), pack.material()));
         for (name, size) in pack.members() {
             assert!(name.split('/').all(|part| !part.is_empty() && part != ".."), "{name}");
             assert!(pack.read(name).map_or(0, |content| content.len() as u64) <= size);

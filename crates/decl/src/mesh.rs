@@ -19,6 +19,9 @@ pub struct MeshData {
     pub triangle_materials: Vec<u32>,
     /// Names of the materials used.
     pub material_names: Vec<String>,
+    /// For each of `material_names` its number in the list of the source, which may hold some that are not used and be in
+    /// another order; empty where there is no such list.
+    pub material_numbers: Vec<u32>,
     /// How many triangles of (almost) no area were left out (area below 1e-20 m² as stored).
     pub degenerate_dropped: usize,
     /// Anything the user should know of (a face that named an unlisted material, normals that had to be normalised...).

@@ -31,8 +31,8 @@ indigo_decl::codes! {
     TURBIDITY = "W0309", "<skylight><sundir>0 0.6 1</sundir><turbidity>30</turbidity></skylight>";
     /// What moves is rendered standing still.
     STANDS_STILL = "W0317", "(a `model` with two `keyframe`s in different places)";
-    /// A model that lists more or fewer materials than its mesh has.
-    MATERIAL_COUNT = "W0318", "(a `model` whose `materials` are two, of a mesh with one)";
+    /// A model that lists fewer materials than its mesh has.
+    MATERIAL_COUNT = "W0318", "(a `model` whose `materials` are one, of a mesh with two)";
     /// Something of an emitting material that gives no light.
     NOT_EMITTING = "W0319", "(a `sphere` whose material has `base_emission`)";
     /// A kind of a later format version that another stands in for.

@@ -59,7 +59,7 @@ pub struct Scene {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Names {
     /// Of a mesh its name, of other objects their element's. First come models, then spheres, planes, mesh lights and rectangle lights,
-    /// each in the order of the scene.
+    /// each in the order of the scene. A model is one object for each of its materials that emit, and one for the rest.
     pub objects: Vec<String>,
     /// In the order in which objects use them. A material with textures is there once for each arrangement of uv sets;
     /// what scatters nothing, as rectangle lights are made of, is called `black`.

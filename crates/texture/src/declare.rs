@@ -12,12 +12,6 @@ pub static TEX_COORD_GENERATION: Block = Block::new(
         Field::new("spherical", Kind::Block(&SPHERICAL), Presence::Optional, "By latitude and longitude."),
     ],
 )
-.with_later(&[
-    Later::new("box", "4.0"),
-    Later::new("cubic", "4.0"),
-    Later::new("cylindrical", "4.0"),
-    Later::new("triplanar", "4.0"),
-])
 .with_example("<tex_coord_generation><uv><matrix>1 0 0 1</matrix><translation>0 0</translation></uv></tex_coord_generation>");
 
 /// The declaration of `uv`.

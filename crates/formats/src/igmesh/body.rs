@@ -158,7 +158,14 @@ impl<'a> Body<'a> {
         }
         let name = || names.get(index).cloned().unwrap_or_else(|| index.to_string());
         let builder = &mut self.builder;
-        let id = |slot: &mut Option<u32>| *slot.get_or_insert_with(|| builder.material(&name()));
+        // Two of one name may be bound to different materials by their numbers, and stay apart.
+        let id = |slot: &mut Option<u32>| {
+            *slot.get_or_insert_with(|| {
+                builder.mesh.material_numbers.push(index as u32);
+                builder.mesh.material_names.push(name());
+                (builder.mesh.material_names.len() - 1) as u32
+            })
+        };
         Ok(self.materials.get_mut(index).map_or(0, id))
     }
 

@@ -119,6 +119,7 @@ fn all_versions_and_layouts_say_the_same() {
         assert_eq!(corners(&mesh), expected[..3 * faces], "version {}", sample.version);
         assert_eq!(mesh.triangle_materials, [0, 1, 1][..faces]);
         assert_eq!(mesh.material_names, ["blue", "red"][..if faces == 1 { 1 } else { 2 }]);
+        assert_eq!(mesh.material_numbers, [1, 0][..mesh.material_names.len()]);
         let name = if sample.version == 1 { ("channel1".to_owned(), 1) } else { ("default".to_owned(), 0) };
         assert_eq!(mesh.uv_names, [name]);
         assert!(mesh.normals.is_empty() && mesh.notes.is_empty(), "{:?}", mesh.notes);

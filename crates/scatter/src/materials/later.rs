@@ -1,7 +1,7 @@
 //! Kinds of material that later format versions brought and that are not rendered as they are meant: for each, something
 //! near stands in.
 
-use super::fields::{BUMP, LATER, ROUGHNESS_PARAMETER};
+use super::fields::{BASE_EMISSION_PARAMETER, BUMP, EMISSION_PARAMETER, LATER, ROUGHNESS_PARAMETER};
 use super::phong;
 use indigo_decl::{Block, Field, Kind, Later, Parameter, Presence, Range, StandIn};
 
@@ -66,11 +66,12 @@ pub static FAST_SSS: Block = Block::new(
         texture: "albedo_texture",
         stand_in: StandIn::Uniform("0.5"),
     },
+    BASE_EMISSION_PARAMETER,
+    EMISSION_PARAMETER,
     ROUGHNESS_PARAMETER,
     BUMP,
 ])
 .with_later(LATER)
-.with_passed_over(&["mean_free_path", "scattering_distance"])
 .with_example(
     "<fast_sss>
     <albedo><constant><rgb><rgb>0.8 0.6 0.5</rgb></rgb></constant></albedo>
@@ -125,7 +126,6 @@ pub static SUNSKY: Block = Block::new(
 .with_later(&[
     Later::new("sun_layer", "1.1").unless("0"),
     Later::new("sky_layer", "1.1").unless("0"),
-    Later::new("use_sky", "4.0").unless("true"),
 ])
 .with_example("<sunsky><sundir>0 0.6 1</sundir><turbidity>2</turbidity><model>original</model></sunsky>");
 

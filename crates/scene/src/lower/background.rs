@@ -28,15 +28,17 @@ pub(super) fn lights(settings: &Node, materials: &MaterialTable, context: &mut C
     let Some(kind) = material.alternative() else { return vec![] };
     let mut lights = vec![];
     for (kind, weight) in shining(kind, materials, context) {
+        let layer = materials.layer_factor(kind);
         if kind.block.name == "sunsky" {
-            if weight != 1.0 || scale.is_some() {
-                let message = "sun and sky keep their brightness: <weight> and <emission_scale> have no effect on a <sunsky>";
+            let is_neutral = layer.is_none_or(|factor| factor == Spectrum::uniform(1.0));
+            if weight != 1.0 || scale.is_some() || !is_neutral {
+                let message = "sun and sky keep their brightness: <weight>, <emission_scale> and <layer_setting> have no effect on a <sunsky>";
                 context.sink.push(Diagnostic::warning(codes::IDLE_SCALE, kind.span, message));
             }
             lights.extend(environment::skylight(kind, context));
             continue;
         }
-        if let Some(even) = even_light(kind, weight, context) {
+        if let Some(even) = even_light(kind, weight, layer, context) {
             lights.push(even);
         }
     }
@@ -68,30 +70,34 @@ fn shining<'a>(kind: &'a Node, materials: &MaterialTable<'a>, context: &mut Cont
 }
 
 /// What a material emits, all round.
-fn even_light(kind: &Node, weight: f64, context: &mut Context) -> Option<DistantLight> {
+fn even_light(
+    kind: &Node,
+    weight: f64,
+    layer: Option<Spectrum>,
+    context: &mut Context,
+) -> Option<DistantLight> {
     // Of a material that surrounds everything only the emission is to be seen.
     kind.disregard();
     let field = |name: &str| kind.block.declares(name).then(|| kind.node(name)).flatten();
     let base = field("base_emission");
+    let layer = layer.unwrap_or(Spectrum::uniform(1.0));
     if let Some(texture) = field("emission_texture") {
-        let gain = base.map_or(Spectrum::uniform(1.0), |base| read::emission(base, context.sink));
-        let Spectrum::Uniform(gain) = gain else {
-            let message = "the surroundings have the colours of their picture: the shape of <base_emission> is left out";
+        let gain =
+            base.map_or(Spectrum::uniform(1.0), |base| read::emission(base, context.sink)).times(&layer);
+        if !matches!(gain, Spectrum::Uniform(_)) {
+            let message = "the surroundings have the colours of their picture: those of <base_emission> and of the layer are left out";
             context.sink.push(Diagnostic::warning(codes::STANDS_IN, kind.span, message));
-            let mean = gain.luminance() / Spectrum::uniform(1.0).luminance();
-            return picture(texture, mean * weight, context);
-        };
-        return picture(texture, gain * weight, context);
+        }
+        return picture(texture, gain.luminance() / Spectrum::uniform(1.0).luminance() * weight, context);
     }
-    let colour = field("emission");
-    let radiance = match (base, colour) {
+    let radiance = match (base, field("emission")) {
         (Some(base), Some(colour)) => {
             read::emission(base, context.sink).times(&read::factor(colour, context.sink))
         }
         (Some(only), None) | (None, Some(only)) => read::emission(only, context.sink),
         (None, None) => return None,
     };
-    Some(Background(radiance.scaled(weight)).into())
+    Some(Background(radiance.scaled(weight).times(&layer)).into())
 }
 
 /// A picture of the surroundings, given as a texture.

@@ -32,7 +32,8 @@ impl Layers {
         Self(settings.nodes("layer_setting").map(|layer| factor(layer, sink)).collect())
     }
 
-    fn factor(&self, layer: i64) -> Option<Spectrum> {
+    /// What a layer multiplies light by.
+    pub(super) fn factor(&self, layer: i64) -> Option<Spectrum> {
         usize::try_from(layer).ok().and_then(|i| self.0.get(i)).cloned().flatten()
     }
 }

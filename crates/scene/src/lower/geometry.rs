@@ -46,8 +46,8 @@ impl Placed {
     }
 }
 
-/// Names of the materials of a placed mesh and where they are named: those of the model itself, by their order, before those
-/// of the mesh.
+/// Names of the materials of a placed mesh and where they are named: those of the model itself, by their order in the mesh's
+/// file, before those of the mesh.
 fn slot_names(node: &Node, mesh: &Mesh, sink: &mut Sink) -> Vec<(String, Span)> {
     let mut slots = mesh.slots.clone();
     // Mesh lights have no such list.
@@ -55,16 +55,24 @@ fn slot_names(node: &Node, mesh: &Mesh, sink: &mut Sink) -> Vec<(String, Span)> 
     let Some(list) = (if may_list { node.node("materials") } else { None }) else { return slots };
     let own: Vec<(String, Span)> =
         list.texts("material_name").map(|name| (name.value.to_owned(), name.span)).collect();
-    if own.len() != slots.len() {
-        let (has, lists) = (slots.len(), own.len());
-        sink.push(Diagnostic::warning(
-            codes::MATERIAL_COUNT,
-            list.span,
-            format!("the mesh has {has} materials, and <materials> lists {lists}"),
-        ));
+    let mut missing = None;
+    for (i, slot) in slots.iter_mut().enumerate() {
+        let number = mesh.slot_numbers.get(i).map_or(i, |number| *number as usize);
+        match own.get(number) {
+            Some(own) => slot.clone_from(own),
+            None => missing = missing.max(Some(number)),
+        }
     }
-    for (slot, own) in slots.iter_mut().zip(own) {
-        *slot = own;
+    if let Some(number) = missing {
+        let (needed, lists) = (number + 1, own.len());
+        sink.push(
+            Diagnostic::warning(
+                codes::MATERIAL_COUNT,
+                list.span,
+                format!("the mesh has {needed} materials, and <materials> lists {lists}"),
+            )
+            .note("the others are those that the mesh names"),
+        );
     }
     slots
 }

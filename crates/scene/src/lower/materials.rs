@@ -128,6 +128,11 @@ impl<'a> MaterialTable<'a> {
         self.emissions.get(&name)?.as_ref()
     }
 
+    /// What the layer of a kind of material multiplies its light by; that of layer 0 where the kind names none.
+    pub(super) fn layer_factor(&self, kind: &Node) -> Option<Spectrum> {
+        self.layers.factor(if kind.block.declares("layer") { kind.int("layer") } else { 0 })
+    }
+
     /// The kind of a material, or of the one that stands in for it.
     fn kind_that_counts(&self, name: &str) -> Option<&'a Node> {
         let mut kind = self.names.get(name)?.alternative()?;

@@ -15,6 +15,8 @@ pub(super) struct Mesh {
     pub(super) id: u32,
     /// For each slot the name of its material and where it is named.
     pub(super) slots: Vec<(String, Span)>,
+    /// For each slot its number in the list of the mesh's file; empty where they are in that order.
+    pub(super) slot_numbers: Vec<u32>,
     /// Names of its uv sets.
     pub(super) uv_names: Vec<(String, u32)>,
     /// The largest coordinate of its vertices, of either sign.
@@ -124,9 +126,10 @@ impl<'a> MeshTable<'a> {
             .enumerate()
             .map(|(i, name)| (name.clone(), material_spans.get(i).copied().unwrap_or(place)));
         let (slots, uv_names) = (slots.collect(), names_of_all_sets(&data));
+        let slot_numbers = data.material_numbers.clone();
         let triangles = to_triangles(data, scale, smooth, place, context.sink)?;
         let reach = triangles.positions().iter().flatten().fold(0.0_f32, |most, x| most.max(x.abs()));
-        Some(Mesh { id: self.add(triangles), slots, uv_names, reach: reach.into() })
+        Some(Mesh { id: self.add(triangles), slots, slot_numbers, uv_names, reach: reach.into() })
     }
 
     /// Meshes that nothing places have no effect, whatever they hold.

@@ -152,7 +152,7 @@ pub static MODEL: Block = Block::new(
 /// The declaration of `materials`.
 pub static MATERIALS: Block = Block::new(
     "materials",
-    "The materials of a model, one after the other: the first takes the place of the first that the mesh names, and so on.",
+    "The materials of a model, one after the other: the first takes the place of the first that the mesh lists in its file, or names in the scene, and so on.",
     &[Field::new(
         "material_name",
         Kind::Reference("material"),

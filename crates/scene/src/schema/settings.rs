@@ -88,7 +88,8 @@ pub static RENDERER_SETTINGS: Block = Block::new(
              (`normal.X`, `normal.Y`, `normal.Z`), the depth in metres (`depth.Z`, 1e10 where there is nothing), and \
              the numbers of object and material that most of the pixel shows (`object_id.X`, `material_id.X`, 0 where there is nothing). \
              The attributes `indigo.object_names` and `indigo.material_names` tell their names, as JSON: objects are numbered \
-             from 1 as models, spheres, planes, mesh lights and rectangle lights in the order of the scene, materials as objects use them. Takes \
+             from 1 as models, spheres, planes, mesh lights and rectangle lights in the order of the scene, materials as objects use them; a \
+             model is one for each of its materials that emit, and one for the rest. Takes \
              sixteen camera rays per pixel, once, and two to three times the memory for the film.",
         ),
         flag(

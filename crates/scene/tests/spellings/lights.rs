@@ -121,6 +121,24 @@ fn layers_dim_and_switch_off() {
 }
 
 #[test]
+fn layers_dim_surroundings_too() {
+    let even = "<diffuse><base_emission><uniform><value>5</value></uniform></base_emission><layer>0</layer></diffuse>";
+    let settings = "<renderer_settings><layer_setting><layer_scale><uniform><value>0.5</value></uniform></layer_scale></layer_setting></renderer_settings>";
+    let with = |kind: &str, warnings: &[&str]| {
+        let double = "W0103 <renderer_settings> is given more than once";
+        scene_with(&(background(kind, "") + settings), &[&[double], warnings].concat())
+    };
+    let map = "<diffuse><emission><texture><path>sky.hdr</path><exponent>1</exponent></texture></emission></diffuse>";
+    for kind in [even, map] {
+        let (whole, half) =
+            (surroundings(&scene_with(&background(kind, ""), &[])), surroundings(&with(kind, &[])));
+        assert!((half / whole - 0.5).abs() < 1e-6, "{kind}: {half} of {whole}");
+    }
+    let sunsky = "<sunsky><sundir>0 0.6 1</sundir></sunsky>";
+    with(sunsky, &["W0321 sun and sky keep their brightness"]);
+}
+
+#[test]
 fn of_a_mesh_with_several_materials_the_emitting_parts_are_lamps() {
     let lit = GREY.replace("</diffuse>", &format!("<base_emission>{BODY}</base_emission></diffuse>"));
     let scene = |n: &str| format!("{CAMERA}{LIGHT}{MESH}{MODEL}{}{}", material("m", GREY), material("n", n));

@@ -31,10 +31,16 @@ fn assert_found(loaded: &Loaded, expected: &[&str]) {
     assert!(matches && loaded.scene.is_some(), "{found:#?}");
 }
 
+fn words(values: &[u32]) -> Vec<u8> {
+    values.iter().flat_map(|v| v.to_le_bytes()).collect()
+}
+
+fn floats(values: &[f32]) -> Vec<u8> {
+    values.iter().flat_map(|v| v.to_le_bytes()).collect()
+}
+
 /// A square of a version of the format, as two triangles or (from version 2 on) one quadrilateral, of one material.
 fn igmesh(version: u32, material: &str) -> Vec<u8> {
-    let words = |values: &[u32]| values.iter().flat_map(|v| v.to_le_bytes()).collect::<Vec<u8>>();
-    let floats = |values: &[f32]| values.iter().flat_map(|v| v.to_le_bytes()).collect::<Vec<u8>>();
     let mut bytes = words(&[5_456_751, version]);
     bytes.extend(words(&[1, 1, material.len() as u32]));
     bytes.extend(material.as_bytes());
@@ -204,6 +210,42 @@ fn a_scene_of_todays_blender_exporter() {
     // The floor, the lamp and the sphere; the lamp, the sun and the sky.
     assert_eq!((scene.stats().objects, scene.lights.len()), (3, 3));
     assert_eq!(scene.names.materials, ["wood", "lamp", "glass"]);
+}
+
+/// The file lists `b` after `a`, but uses it first, and lists one that it does not use.
+#[test]
+fn a_model_lists_its_materials_in_the_order_of_the_mesh_file() {
+    let mut mesh = words(&[5_456_751, 3, 0, 3]);
+    for name in ["a", "b", "unused"] {
+        mesh.extend(words(&[1]));
+        mesh.push(name.as_bytes()[0]);
+    }
+    mesh.extend(words(&[0, 4]));
+    mesh.extend(floats(&[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0, 0.0]));
+    mesh.extend(words(&[0, 1, 0, 2, 0, 1, 2, 0, 0, 0, 1, 0, 2, 3, 0, 0, 0, 0, 0]));
+    let scene = |materials: &str| {
+        let named = ["a", "b", "c"].map(|name| material(name, GREY)).concat();
+        format!(
+            "<scene>{TONES}{CAMERA}{LIGHT}{named}<mesh><name>m</name><external><path>m.igmesh</path></external></mesh><model><pos>0 0 0</pos><mesh_name>m</mesh_name>{materials}</model></scene>"
+        )
+    };
+    let slots = |materials: &str, expected: &[&str]| {
+        let files = vec![("scene.igs", scene(materials).into_bytes()), ("m.igmesh", mesh.clone())];
+        let loaded = loaded(files);
+        assert_found(&loaded, expected);
+        // In the order of their first use.
+        loaded.scene.expect("a scene").names.materials
+    };
+    assert_eq!(slots("", &[]), ["b", "a"]);
+    let list = |names: &[&str]| {
+        let names: Vec<String> =
+            names.iter().map(|name| format!("<material_name>{name}</material_name>")).collect();
+        let names = names.concat();
+        format!("<materials>{names}</materials>")
+    };
+    assert_eq!(slots(&list(&["c", "a", "b"]), &[]), ["a", "c"]);
+    assert_eq!(slots(&list(&["c", "a"]), &[]), ["a", "c"]);
+    assert_eq!(slots(&list(&["c"]), &["W0318 the mesh has 2 materials"]), ["b", "c"]);
 }
 
 #[test]
