@@ -5,7 +5,7 @@
 //! thread itself used. Options: `--scene NAME|FILE.igs` (may be repeated; all of its own without it), `--mode NAME`
 //! (likewise), `--seconds S` for each mode (20), `--target E` relMSE whose time is wanted (0.01),
 //! `--reference S` seconds for a reference that is not kept yet (240), `--list`, `--export DIR` (writes its scenes as
-//! files, for other renderers: `mitsuba.py` beside this file races one of them).
+//! files, for other renderers: `race_mitsuba.py` beside this file races one of them).
 //!
 //! References are kept in `bench-data/transport`, by the scene's name and a hash of its text. They are made by a mode
 //! that suits the scene, in two halves, whose difference tells their noise.

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What Mitsuba 3 reaches on scenes of `cargo xtask bench transport`, on one thread.
 
-usage: mitsuba.py [--seconds S] [--variant V] [--max-depth N] FILE.igs REFERENCE.xyz ...
+usage: race_mitsuba.py [--seconds S] [--variant V] [--max-depth N] FILE.igs REFERENCE.xyz ...
 
 FILE.igs is written by `cargo xtask bench transport --export DIR`, REFERENCE.xyz is what that benchmark keeps in
 `bench-data/transport` once it ran: two halves of X, Y, Z as floats. Needs the packages `mitsuba` and `numpy`, and LLVM
