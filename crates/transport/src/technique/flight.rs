@@ -17,8 +17,7 @@ pub(super) struct Flight {
     pub media: MediumStack,
     /// What it has passed since it left its vertex.
     pub passage: Passage,
-    /// Its vertex, where that lies along the ray, and how far it has come.
-    from: Vec3,
+    /// Where on the ray its vertex lies, and how far it has come.
     start: Real,
     passed: Real,
 }
@@ -64,7 +63,7 @@ impl Flight {
     #[inline]
     pub fn new(from: Vec3, ray: Ray, media: MediumStack) -> Self {
         let start = (from - ray.o).dot(ray.d);
-        Self { ray, media, passage: Passage::CLEAR, from, start, passed: start }
+        Self { ray, media, passage: Passage::CLEAR, start, passed: start }
     }
 
     /// How far it has come from its vertex, metres. In dense media that may be less than the rounding of the
@@ -147,11 +146,7 @@ impl Flight {
                 self.passed = hit.t;
                 Arrival::Surface(at)
             }
-            // On the line through the vertex itself: the ray is off it by up to the nudge, sideways, which is deeper in a
-            // medium that begins at the vertex, and may be many mean free paths.
-            None if scattered < Real::INFINITY => {
-                Arrival::Medium(self.from + ray.d * (scattered - self.start))
-            }
+            None if scattered < Real::INFINITY => Arrival::Medium(ray.at(scattered)),
             None => Arrival::Environment,
         }
     }

@@ -162,6 +162,7 @@ impl Vertex {
     /// Leaves in a direction.
     #[inline]
     pub fn leave(&self, world: &World, direction: Vec3) -> Flight {
-        Flight::new(self.point.p, self.point.spawn(world.scene, direction), *self.media_towards(direction))
+        let media = *self.media_towards(direction);
+        Flight::new(self.point.p, self.point.spawn_into(world, direction, &media), media)
     }
 }

@@ -50,6 +50,19 @@ impl Point {
     pub fn spawn(&self, scene: &Scene, direction: Vec3) -> Ray {
         Ray::new(self.leave(scene, direction), direction)
     }
+
+    /// The ray that leaves in a direction through some media.
+    ///
+    /// Where they scatter it keeps no more than the point's own error from the surface, whatever the scene's nudge is: the
+    /// nudge may be many mean free paths, and all that is scattered there would be so much deeper in the medium.
+    #[inline]
+    pub fn spawn_into(&self, world: &World, direction: Vec3, media: &MediumStack) -> Ray {
+        let scatters = world.has_media() && !world.medium(media.current()).scattering.is_black();
+        if scatters && self.n != Vec3::ZERO {
+            return Ray::new(offset_origin(self.p, self.p_error, self.n, direction, 0.0), direction);
+        }
+        self.spawn(world.scene, direction)
+    }
 }
 
 /// The way from a vertex to the light that was drawn for it; `None` where something stands between.

@@ -176,8 +176,9 @@ fn leave_lamp(world: &World, emission: &Emission) -> Flight {
             if world.scene.lights.portals().is_some() { entry(world, emission) } else { emission.origin };
         return Flight::new(origin, Ray::new(origin, emission.direction), MediumStack::AIR);
     };
-    let ray = Point::of_light(point).spawn(world.scene, emission.direction);
-    Flight::new(point.p, ray, world.scene.media_at_lamp(lamp, ray.o, ray.d))
+    let (start, direction) = (Point::of_light(point), emission.direction);
+    let media = world.scene.media_at_lamp(lamp, start.spawn(world.scene, direction).o, direction);
+    Flight::new(point.p, start.spawn_into(world, direction, &media), media)
 }
 
 /// A point before all that stands in the way of light from the environment, the light's own origin where that is one.
