@@ -13,7 +13,7 @@ indigo_decl::codes! {
     NO_LIGHT = "W0306", "(a scene without `background`, `skylight`, `env_map`, `meshlight` and `rectanglelight`)";
     /// The normal of a plane is not of length 1.
     NOT_UNIT = "W0307", "<plane><normal>0 0 2</normal><dist>0</dist><material_name>white</material_name></plane>";
-    /// Texels of an environment map that cannot be light.
+    /// Texels that cannot be light.
     BAD_TEXELS = "W0308", "(a picture with texels that are no numbers, or an environment map with negative ones)";
     /// A lamp whose flux is given twice.
     FLUX_TWICE = "W0310", "(a `meshlight` with `ies_profile` and `efficacy_scale`)";
