@@ -1,7 +1,7 @@
 //! Which numbers the samples of a TIFF are (TIFF 6.0, section 19).
 //!
-//! The crate `image` (0.25.10) takes all samples of 32 bits for numbers of single precision, whatever the file says, and
-//! signed ones for unsigned ones.
+//! The crate `image` (0.25.10) takes samples of 32 bits for numbers of single precision where the file does not say what
+//! they are: whole numbers by the standard.
 
 use std::io::Cursor;
 
