@@ -224,6 +224,9 @@ fn apply(flag: &Flag, value: String, parsed: &mut Arguments) -> Result<(), Strin
             let passes = value.parse().ok().filter(|n: &u32| *n > 0);
             parsed.strategies =
                 Some(passes.ok_or_else(|| format!("-strategies needs a whole number above 0, not {value}"))?);
+            // What cannot be traced from both ends is refused.
+            let setting = "bidirectional";
+            parsed.settings.push(Override { option: "-strategies", setting, value: "true".to_owned() });
         }
         Action::Replay => {
             let numbers: Vec<u64> = value.split(':').map_while(|n| n.parse().ok()).collect();

@@ -158,10 +158,11 @@ fn show_strategies(
 fn tell_sample(scene: &Scene, arguments: &Arguments, console: &mut Console) -> u8 {
     let [seed, unit, index] = arguments.replay.unwrap_or_default();
     match indigo_render::replay(scene, seed, unit, index) {
-        Some(replay) => answer(&replay.to_string(), console),
-        None => {
-            console.say(&format!("error: unit {unit} has no sample {index}"));
-            BAD_INPUT
+        Ok(replay) => answer(&replay.to_string(), console),
+        Err(0) => refuse(&format!("unit {unit} has no samples"), console),
+        Err(all) => {
+            let last = all - 1;
+            refuse(&format!("unit {unit} has samples 0 to {last}, and so none of number {index}"), console)
         }
     }
 }

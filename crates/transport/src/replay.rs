@@ -14,10 +14,13 @@ use std::fmt;
 /// What a sample did.
 #[derive(Clone, Debug)]
 pub struct Replay {
+    unit: u64,
     /// Its number in the unit.
     index: u64,
-    /// Samples that have begun.
+    /// Samples that have begun: in the end all of the unit.
     begun: u64,
+    /// Whether they are mutations of a chain.
+    is_chain: bool,
     position: Vec2,
     lambda: Option<SampledWavelengths>,
     vertices: Vec<(End, Vec3, bool)>,
@@ -46,8 +49,11 @@ impl Contribution {
     }
 }
 
-/// The sample `index` of a unit of a scene's render from a seed; `None` where the unit has fewer.
-pub fn replay(scene: &Scene, seed: u64, unit: u64, index: u64) -> Option<Replay> {
+/// The sample `index` of a unit of a scene's render from a seed.
+///
+/// # Errors
+/// How many samples the unit has, where that is fewer.
+pub fn replay(scene: &Scene, seed: u64, unit: u64, index: u64) -> Result<Replay, u64> {
     let driver = Driver::new(scene, seed);
     let mut tracer = driver.tracer();
     let mut delta = FilmState::new(scene.film.size, driver.layers()).delta();
@@ -55,15 +61,17 @@ pub fn replay(scene: &Scene, seed: u64, unit: u64, index: u64) -> Option<Replay>
         driver.render_unit(scene, before, &mut tracer, &mut delta);
     }
     let mut replay = Replay {
+        unit,
         index,
         begun: 0,
+        is_chain: driver.is_chain(unit),
         position: Vec2::new(0.0, 0.0),
         lambda: None,
         vertices: vec![],
         contributions: vec![],
     };
     driver.render_unit_recorded(scene, unit, &mut tracer, &mut delta, &mut replay);
-    (replay.begun > index).then_some(replay)
+    if replay.begun > index { Ok(replay) } else { Err(replay.begun) }
 }
 
 impl Replay {
@@ -115,6 +123,8 @@ impl Record for Replay {
 
 impl fmt::Display for Replay {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let kind = if self.is_chain { "mutations of a chain" } else { "low-discrepancy samples" };
+        writeln!(f, "sample {} of unit {}, which has {} {kind}", self.index, self.unit, self.begun)?;
         writeln!(f, "film position {} {}", self.position.x, self.position.y)?;
         if let Some(lambda) = &self.lambda {
             writeln!(f, "wavelengths {:?} nm", lambda.lambda)?;

@@ -78,7 +78,8 @@ fn each_sample_is_what_its_pixel_got() {
             // Each splat is spread over a film of so many pixels.
             assert_near("all splats", splats, sum);
         }
-        assert!(replay(&scene, SEED, 0, u64::from(SIDE * SIDE)).is_none(), "there are no more");
+        let all = u64::from(SIDE * SIDE);
+        assert_eq!(replay(&scene, SEED, 0, all).err(), Some(all), "there are no more");
     }
 }
 
@@ -112,6 +113,25 @@ fn a_mutation_is_the_one_of_the_chain() {
         assert_near(&format!("mutation {index}"), target, all.targets[index as usize]);
     }
     assert_eq!(all.targets.len(), 2048);
+}
+
+/// In a hybrid, units of the two kinds take turns.
+#[test]
+fn a_sample_says_what_its_unit_is() {
+    let mut scene = floor();
+    scene.transport.hybrid = true;
+    scene.transport.metropolis = Some(MetropolisSettings {
+        large_mutation_prob: 0.5,
+        max_change: 0.01,
+        max_consecutive_rejections: i64::MAX,
+    });
+    for (unit, expected) in [
+        (0, format!("sample 2 of unit 0, which has {} low-discrepancy samples\n", SIDE * SIDE)),
+        (1, "sample 2 of unit 1, which has 2048 mutations of a chain\n".to_owned()),
+    ] {
+        let told = replay(&scene, SEED, unit, 2).expect("a third").to_string();
+        assert!(told.starts_with(&expected), "{told}");
+    }
 }
 
 /// The targets of all samples.

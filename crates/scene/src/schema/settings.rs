@@ -34,7 +34,12 @@ pub static RENDERER_SETTINGS: Block = Block::new(
              that is quick to trace.",
         )
         .unit("triangles"),
-        flag("metropolis", "true", "Whether paths are chosen by Metropolis sampling."),
+        flag(
+            "metropolis",
+            "true",
+            "Whether paths are chosen by Metropolis sampling. That pays where light is hard to find, through gaps and behind \
+             several surfaces; where lamps or the sky are open to view, pictures have less noise without it.",
+        ),
         real(
             "large_mutation_prob",
             "0.4",
@@ -116,7 +121,8 @@ pub static RENDERER_SETTINGS: Block = Block::new(
         flag(
             "hybrid",
             "false",
-            "Whether direct light is sampled by low-discrepancy points and the rest by Metropolis sampling.",
+            "Whether direct light is sampled by low-discrepancy points and the rest by Metropolis sampling, whatever \
+             `metropolis` says.",
         ),
         real("frame_upload_period", "40", "How often a network slave sends its film to the master.")
             .unit("s")

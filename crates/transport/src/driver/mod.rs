@@ -286,6 +286,15 @@ impl Driver {
         }
     }
 
+    /// Whether a unit is part of a Markov chain, and not of independent samples.
+    pub fn is_chain(&self, unit: u64) -> bool {
+        match &self.parts {
+            Parts::Independent(_) => false,
+            Parts::Metropolis(_) => true,
+            Parts::Hybrid(..) => !unit.is_multiple_of(2),
+        }
+    }
+
     /// The units on which the samples of one depend, in the order in which they are to be done: those of its chain, if
     /// it is one's.
     pub fn units_before(&self, unit: u64) -> impl Iterator<Item = u64> {
