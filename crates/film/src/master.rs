@@ -141,8 +141,27 @@ impl MasterFilm {
 
     /// A copy of the film as it stands, for saving.
     pub fn snapshot(&self) -> FilmState {
+        self.copy_then(|_| {}, |_| {})
+    }
+
+    /// The film as it stands, of which nothing stays: as if all that is merged from now on went to a new film. What is
+    /// drained and what stays are whole merges each, with the totals that go with them.
+    pub fn drain(&self) -> FilmState {
+        let empty_rows = |rows: &mut BandLayer| {
+            rows.sums.fill([0.0; 4]);
+            rows.counts.fill(0.0);
+        };
+        self.copy_then(empty_rows, |tally| {
+            tally.layers.fill(Totals::default());
+            tally.refused = 0;
+        })
+    }
+
+    /// A copy of the film, made while nobody merges; then does something to its rows, and to what is counted for it as a
+    /// whole.
+    fn copy_then(&self, rows_done: impl Fn(&mut BandLayer), done: impl FnOnce(&mut Tally)) -> FilmState {
         let _gate = self.gate.write().unwrap_or_else(PoisonError::into_inner);
-        let tally = lock(&self.tally);
+        let mut tally = lock(&self.tally);
         let mut layers: Vec<Layer> = self
             .layers
             .iter()
@@ -156,12 +175,21 @@ impl MasterFilm {
             })
             .collect();
         for band in &self.bands {
-            for (layer, rows) in layers.iter_mut().zip(&lock(band).layers) {
+            for (layer, rows) in layers.iter_mut().zip(&mut lock(band).layers) {
                 layer.sums.extend_from_slice(&rows.sums);
                 layer.counts.extend_from_slice(&rows.counts);
+                rows_done(rows);
             }
         }
-        FilmState { size: self.size, layers, refused: tally.refused }
+        let copy = FilmState { size: self.size, layers, refused: tally.refused };
+        done(&mut tally);
+        copy
+    }
+
+    /// Whether nothing has been merged, not even a sample that shows nothing.
+    pub fn is_empty(&self) -> bool {
+        let tally = lock(&self.tally);
+        tally.refused == 0 && tally.layers.iter().all(|totals| *totals == Totals::default())
     }
 
     /// The film's radiance as it stands, without copying its sums; see [`FilmState::develop`].

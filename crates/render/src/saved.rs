@@ -3,9 +3,10 @@
 use crate::disk::open_limited;
 use crate::pool::with_jobs;
 use indigo_film::igi::{IgiError, IgiFile};
-use indigo_film::{DevelopedFilm, FilmRecord, FilmSize, Mismatch, SavedFilm};
+use indigo_film::{DevelopedFilm, FilmRecord, FilmSize, FilmState, Mismatch, SavedFilm};
 use indigo_imaging::PictureSettings;
 use indigo_scene::Scene;
+use indigo_transport::driver::Driver;
 use std::path::{Path, PathBuf};
 
 /// Why films could not be read or added.
@@ -93,4 +94,12 @@ pub fn blank_record(scene: &Scene, program: &str) -> FilmRecord {
         settings: scene.identity.settings.clone(),
         ..FilmRecord::default()
     }
+}
+
+/// A film of a scene without samples.
+pub fn blank_film(scene: &Scene, program: &str) -> SavedFilm {
+    // The seed does not matter to what layers there are.
+    let driver = Driver::new(scene, 0);
+    let film = FilmState::new(scene.film.size, driver.layers());
+    SavedFilm { film, record: Some(blank_record(scene, program)) }
 }

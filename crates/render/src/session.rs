@@ -1,5 +1,7 @@
 //! A running render.
 
+mod film;
+
 use crate::error_meter::ErrorMeter;
 use crate::gate::Gate;
 use crate::memory;
@@ -7,7 +9,7 @@ use crate::options::{Halt, Options};
 use crate::progress::{Progress, RateMeter};
 use crate::saved::{blank_record, lines};
 use crate::worker::{self, OrderedMerge, Shared};
-use indigo_film::{FilmError, FilmRecord, FilmSize, FilmState, MasterFilm, Mismatch, Run, SavedFilm};
+use indigo_film::{FilmError, FilmRecord, FilmSize, FilmState, MasterFilm, Mismatch, SavedFilm};
 use indigo_scene::Scene;
 use indigo_transport::driver::Driver;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -81,9 +83,12 @@ pub enum SessionError {
 /// moves the epochs on and tests the halting conditions. Dropping a session stops it.
 pub struct Session {
     shared: Arc<Shared>,
+    /// The first unit that is in the film, or will be.
     first_unit: u64,
-    /// What the film held before this session.
+    /// What the film held before this session, or before the last [`drain`](Session::drain).
     before: FilmRecord,
+    /// Time of rendering until the last drain.
+    drained_after: Duration,
     workers: Vec<JoinHandle<()>>,
     halt: Halt,
     epoch: Duration,
@@ -92,6 +97,8 @@ pub struct Session {
     paused_for: Duration,
     last_epoch: Instant,
     rate: RateMeter,
+    /// Samples of the film that were there before this session.
+    rate_from: u64,
     error: ErrorMeter,
     reason: Option<HaltReason>,
 }
@@ -102,8 +109,21 @@ impl Session {
     /// # Errors
     /// Where the system gives no threads, or not the memory.
     pub fn start(scene: Arc<Scene>, options: &Options) -> Result<Self, SessionError> {
+        Self::start_beside(scene, options, &FilmRecord::default())
+    }
+
+    /// Starts rendering with an empty film, for [`drain`](Self::drain)s that are added to another film: with none of the
+    /// random numbers that its record tells of.
+    ///
+    /// # Errors
+    /// As [`start`](Self::start).
+    pub fn start_beside(
+        scene: Arc<Scene>,
+        options: &Options,
+        other: &FilmRecord,
+    ) -> Result<Self, SessionError> {
         let nothing = blank_record(&scene, "");
-        Self::begin(scene, options, nothing, None)
+        Self::begin(scene, options, nothing, other.first_fresh_unit(options.seed), None)
     }
 
     /// Goes on with a film. Its samples count towards [`Halt::samples_per_pixel`], its time does not count
@@ -113,8 +133,9 @@ impl Session {
     /// Where the film is of another picture, with all that differs; where the system gives no threads, or not the
     /// memory.
     pub fn go_on(scene: Arc<Scene>, options: &Options, saved: &SavedFilm) -> Result<Self, SessionError> {
-        let record = Self::check(&scene, saved)?;
-        Self::begin(scene, options, record.clone(), Some(&saved.film))
+        let record = Self::check(&scene, saved)?.clone();
+        let first_unit = record.first_fresh_unit(options.seed);
+        Self::begin(scene, options, record, first_unit, Some(&saved.film))
     }
 
     /// The record of a film if a scene can go on with it.
@@ -133,9 +154,9 @@ impl Session {
         scene: Arc<Scene>,
         options: &Options,
         before: FilmRecord,
+        first_unit: u64,
         film_before: Option<&FilmState>,
     ) -> Result<Self, SessionError> {
-        let first_unit = before.first_fresh_unit(options.seed);
         let mut driver = Driver::going_on(&scene, options.seed, first_unit);
         let estimates_error = options.halt.relative_error.is_some();
         if estimates_error {
@@ -169,7 +190,9 @@ impl Session {
         let mut session = Self {
             shared,
             first_unit,
+            rate_from: before.samples,
             before,
+            drained_after: Duration::ZERO,
             workers: vec![],
             halt: options.halt,
             epoch: options.epoch,
@@ -299,34 +322,11 @@ impl Session {
         self.started.elapsed().saturating_sub(self.paused_for + pause)
     }
 
-    /// A copy of the film as it has been handed over so far.
-    pub fn snapshot(&self) -> FilmState {
-        let mut films = self.shared.films.iter().map(MasterFilm::snapshot);
-        let first = films.next().unwrap_or_else(|| unreachable!("a session has a film"));
-        films.fold(first, |mut sum, film| {
-            sum.merge_state(&film).unwrap_or_else(|e| unreachable!("films of one session: {e}"));
-            sum
-        })
-    }
-
-    /// The same with its record, ready to be saved.
-    pub fn saved(&self, program: &str) -> SavedFilm {
-        let film = self.snapshot();
-        let mut record = self.before.clone();
-        program.clone_into(&mut record.program);
-        // Read after the sums were copied, so that no unit in them is beyond it.
-        let end = self.shared.next_unit.load(Ordering::Relaxed).min(self.shared.unit_limit);
-        record.add_run(Run { seed: self.shared.seed, first: self.first_unit, end });
-        record.samples = (film.samples_per_pixel() * film.size.pixels() as f64).round() as u64;
-        record.elapsed_s += self.elapsed().as_secs_f64();
-        SavedFilm { film, record: Some(record) }
-    }
-
     /// How far the session is.
     pub fn progress(&mut self) -> Progress {
         let samples = self.shared.samples.load(Ordering::Relaxed);
         let elapsed = self.elapsed();
-        let rate = self.rate.update(elapsed, samples - self.before.samples);
+        let rate = self.rate.update(elapsed, samples - self.rate_from);
         let spp = samples as f64 / self.shared.driver.pixels() as f64;
         let by_samples = self.halt.samples_per_pixel.map(|n| {
             let total = n as f64 * self.shared.driver.pixels() as f64;

@@ -155,6 +155,8 @@ pub struct OutputSettings {
     pub png: png::Format,
     /// How often pictures are written.
     pub image_save_period: f64,
+    /// How often a network slave sends what it has rendered, in seconds.
+    pub frame_upload_period: f64,
     /// Rendering time after which to halt.
     pub halt_time: Option<f64>,
     /// Samples per output pixel at which to halt.

@@ -15,6 +15,10 @@
 //! Without the mark a file is one of another program: versions 1, 7 and 8 are read as a picture that can be
 //! developed, but not gone on with.
 //!
+//! A *parcel* is a film on its way from a network slave to its master, and no file: the eight bytes of `PARCEL_MARK`, u32
+//! `SECTION_VERSION`, u32 width, height (internal pixels) and super-sampling factor, then the film section, with sums and
+//! counts as f32, then the hash.
+//!
 //! Reading never panics. Its memory is bounded by the file's size: the image alone needs 12 bytes per
 //! internal pixel, and no file has more than `MAX_LAYERS` layers.
 
@@ -26,8 +30,8 @@ mod write;
 
 use crate::FilmError;
 
-pub use read::{IgiFile, read};
-pub use write::write;
+pub use read::{IgiFile, parcel_size, read, read_parcel};
+pub use write::{write, write_parcel};
 
 /// The first four bytes of every Indigo image.
 const MAGIC: u32 = 66_613_373;
@@ -39,6 +43,8 @@ const PADDING: usize = 40;
 const IMAGE: usize = PADDING + 5000;
 /// Says that a film section follows the image.
 const MARK: [u8; 8] = *b"IndiFilm";
+/// What a parcel begins with.
+const PARCEL_MARK: [u8; 8] = *b"IndiPart";
 /// To be raised with every change of the film section that older readers would misread.
 const SECTION_VERSION: u32 = 2;
 /// Bytes of the hash at the end.

@@ -1,9 +1,9 @@
 //! Reading a film, with nothing in the file believed.
 
-use super::blocks::{BLOCK, Packed};
+use super::blocks::{BLOCK, Packed, Precision};
 use super::bytes::Bytes;
 use super::foreign;
-use super::{HASH, IMAGE, IgiError, MAGIC, MARK, MAX_LAYERS, PADDING, SECTION_VERSION, VERSION};
+use super::{HASH, IMAGE, IgiError, MAGIC, MARK, MAX_LAYERS, PADDING, PARCEL_MARK, SECTION_VERSION, VERSION};
 use crate::band::develop_layer;
 use crate::record::{DevelopedFilm, FilmRecord, Run, SavedFilm};
 use crate::{FilmSize, FilmState, Layer, LayerKind, Totals, XyzImage};
@@ -118,6 +118,43 @@ impl IgiFile {
     }
 }
 
+/// Reads what [`write_parcel`](super::write_parcel) has written. Runs on the caller's rayon pool.
+///
+/// # Errors
+/// See [`IgiError`]: what comes from another machine is believed as little as a file. Its memory is bounded by the size
+/// of the film that it says it is, of which it must hold a part: see [`parcel_size`] for who wants no other.
+pub fn read_parcel(parcel: &[u8]) -> Result<SavedFilm, IgiError> {
+    let size = parcel_size(parcel)?;
+    let split = parcel.len().checked_sub(HASH).filter(|&n| n >= PARCEL_HEADER);
+    let (content, hash) = split.map(|n| parcel.split_at(n)).ok_or(IgiError::Truncated("the header"))?;
+    let mut bytes = Bytes(content);
+    bytes.take(PARCEL_HEADER, "the header")?;
+    let read = || Content::read_section(bytes, size, Precision::Single).and_then(Content::unpack);
+    let (found, film) = rayon::join(|| blake3::hash(content), read);
+    if found.as_bytes() != hash {
+        return Err(IgiError::Checksum);
+    }
+    film
+}
+
+/// Bytes before the film section of a parcel.
+const PARCEL_HEADER: usize = PARCEL_MARK.len() + 4 * size_of::<u32>();
+
+/// The size of the film that a parcel says it is.
+///
+/// # Errors
+/// Where it is no parcel, or of another version.
+pub fn parcel_size(parcel: &[u8]) -> Result<FilmSize, IgiError> {
+    if !parcel.starts_with(&PARCEL_MARK) {
+        return Err(IgiError::NotIgi);
+    }
+    let at = |n: usize| fixed(parcel, PARCEL_MARK.len() + n * size_of::<u32>()).map(u32::from_le_bytes);
+    match at(0)? {
+        SECTION_VERSION => internal_size(at(1)?, at(2)?, at(3)?),
+        other => Err(IgiError::Section(other)),
+    }
+}
+
 fn has_mark(file: &[u8]) -> bool {
     let numbers = [MAGIC, VERSION].map(u32::to_le_bytes);
     file.starts_with(numbers.as_flattened()) && file.get(PADDING..PADDING + MARK.len()) == Some(&MARK)
@@ -157,6 +194,11 @@ impl<'a> Content<'a> {
         if image != size.internal_pixels() as u64 * 12 {
             return Err(IgiError::Truncated("the image"));
         }
+        Self::read_section(bytes, size, Precision::Double)
+    }
+
+    /// The film section, of a file or a parcel.
+    fn read_section(mut bytes: Bytes<'a>, size: FilmSize, precision: Precision) -> Result<Self, IgiError> {
         let record = read_record(&mut bytes)?;
         let refused = bytes.u64("the record")?;
         let count = bytes.u32("the record")? as usize;
@@ -164,7 +206,7 @@ impl<'a> Content<'a> {
             return Err(IgiError::Malformed("there are too many layers"));
         }
         // What is missing is noticed before room is made for any of it.
-        let layers = (0..count).map(|_| PackedLayer::read(&mut bytes, size)).collect::<Result<_, _>>()?;
+        let layers = (0..count).map(|_| PackedLayer::read(&mut bytes, size, precision)).collect::<Result<_, _>>()?;
         if !bytes.0.is_empty() {
             return Err(IgiError::Malformed("something follows the last layer"));
         }
@@ -247,7 +289,7 @@ struct Room {
 }
 
 impl<'a> PackedLayer<'a> {
-    fn read(bytes: &mut Bytes<'a>, size: FilmSize) -> Result<Self, IgiError> {
+    fn read(bytes: &mut Bytes<'a>, size: FilmSize, precision: Precision) -> Result<Self, IgiError> {
         const WHAT: &str = "a layer";
         let kind = match bytes.u32(WHAT)? {
             0 => LayerKind::PerPixel,
@@ -262,8 +304,8 @@ impl<'a> PackedLayer<'a> {
             return Err(IgiError::Malformed("a number of samples is negative or not finite"));
         }
         let pixels = size.internal_pixels();
-        let sums = Packed::take(bytes, 4 * pixels)?;
-        let counts = Packed::take(bytes, kind.count_slots(pixels))?;
+        let sums = Packed::take(bytes, precision, 4 * pixels)?;
+        let counts = Packed::take(bytes, precision, kind.count_slots(pixels))?;
         Ok(Self { kind, name, totals, sums, counts })
     }
 

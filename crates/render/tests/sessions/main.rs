@@ -8,6 +8,7 @@ mod common;
 mod again;
 mod determinism;
 mod direct;
+mod draining;
 mod error;
 mod halting;
 mod regions;

@@ -245,8 +245,6 @@ fn png(settings: &Settings) -> png::Format {
 
 /// What is written, and when.
 pub(super) fn output(settings: &Settings, scene_path: &str) -> OutputSettings {
-    // Only network slaves look at it.
-    settings.disregard("frame_upload_period");
     let positive = |field: &str| Some(settings.real(field)).filter(|v| *v > 0.0);
     let threads = usize::try_from(settings.int("num_threads").value).unwrap_or(1);
     OutputSettings {
@@ -260,6 +258,7 @@ pub(super) fn output(settings: &Settings, scene_path: &str) -> OutputSettings {
         igi: settings.bool("save_igi"),
         png: png(settings),
         image_save_period: settings.real("image_save_period"),
+        frame_upload_period: settings.real("frame_upload_period"),
         halt_time: positive("halt_time"),
         halt_samples_per_pixel: positive("halt_samples_per_pixel"),
         threads: (!settings.bool("auto_choose_num_threads")).then_some(threads),
