@@ -2,6 +2,7 @@
 
 use crate::paths::utc;
 use indigo_diag::{Diagnostic, Severity, SourceMap, Style, quoted, to_json, to_text};
+use indigo_net::event::{Event, Field, Weight};
 use indigo_render::Progress;
 use std::fs::{File, OpenOptions};
 use std::io::{IsTerminal, Write};
@@ -178,9 +179,30 @@ impl Console {
         }
     }
 
+    /// Tells of something that has happened in a network render.
+    pub fn event(&mut self, event: &Event) {
+        let message = event.to_string();
+        let values = event.fields().into_iter().map(|(name, value)| match value {
+            Field::Text(text) => format!(",\"{name}\":{}", quoted(&text)),
+            Field::Number(number) => format!(",\"{name}\":{number}"),
+        });
+        let fields = format!(",\"event\":\"{}\"{}", event.kind(), values.collect::<String>());
+        let (level, text) = match event.weight() {
+            Weight::Detail => (Level::Detail, message.clone()),
+            Weight::Info => (Level::Info, message.clone()),
+            Weight::Warning => (Level::Warning, format!("warning: {message}")),
+        };
+        self.write(level, &text, &message, &fields);
+    }
+
     /// Renews the progress line on a terminal; a line of its own elsewhere.
     pub fn progress(&mut self, progress: &Progress) {
-        let text = progress_text(progress);
+        self.progress_of(progress, "");
+    }
+
+    /// The same with something more to say at the end of the line.
+    pub fn progress_of(&mut self, progress: &Progress, more: &str) {
+        let text = progress_text(progress) + more;
         if self.verbosity <= Verbosity::Quiet {
         } else if self.terminal {
             let padding = " ".repeat(self.line.saturating_sub(text.chars().count()));

@@ -6,6 +6,7 @@
 mod completions;
 mod help;
 mod man;
+mod network;
 mod table;
 
 use crate::console::Verbosity;
@@ -15,10 +16,19 @@ pub use help::help;
 use indigo_scene::Override;
 pub use man::man;
 use std::ffi::OsString;
+use std::net::SocketAddr;
 use table::{Action, FLAGS, Flag};
 
-/// Options of the manual that this version does not have yet, by name: better a clear answer than a guess.
-const NOT_YET: &[&str] = &["h", "n", "p"];
+/// A part in a render of many machines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// Renders a master's scene.
+    Slave,
+    /// Adds up what slaves render.
+    Master,
+    /// The same, and renders.
+    WorkingMaster,
+}
 
 /// The command line, understood.
 #[derive(Debug, Default, PartialEq)]
@@ -50,6 +60,18 @@ pub struct Arguments {
     pub strategies: Option<u32>,
     /// Only tell a sample: seed, unit and its number there.
     pub replay: Option<[u64; 3]>,
+    /// The part in a render of many machines.
+    pub network: Option<Role>,
+    /// The master's host and port.
+    pub host: Option<(String, u16)>,
+    /// The port to listen at.
+    pub port: Option<u16>,
+    /// File of the shared key.
+    pub key_file: Option<String>,
+    /// Where to show how things stand.
+    pub status: Option<SocketAddr>,
+    /// Only make a key, into this file.
+    pub make_key: Option<String>,
     /// Only check.
     pub check: bool,
     /// Only list the settings.
@@ -110,6 +132,7 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Arguments,
     }
     check_files(&parsed)?;
     check_meaning(&parsed)?;
+    network::check(&parsed)?;
     Ok(parsed)
 }
 
@@ -178,9 +201,6 @@ fn find(name: &str) -> Result<&'static Flag, String> {
     if let Some(flag) = FLAGS.iter().find(|f| f.name == name || f.alias == Some(name)) {
         return Ok(flag);
     }
-    if NOT_YET.contains(&name) {
-        return Err(format!("-{name} is not in this version yet"));
-    }
     let hint = indigo_diag::nearest(name, FLAGS.iter().map(|f| f.name));
     Err(match hint {
         Some(hint) => format!("unknown option -{name}; did you mean -{hint}?"),
@@ -235,6 +255,12 @@ fn apply(flag: &Flag, value: String, parsed: &mut Arguments) -> Result<(), Strin
                 format!("-replay needs three whole numbers SEED:UNIT:INDEX, such as 0:12:345, not {value}")
             })?);
         }
+        Action::Network => parsed.network = Some(network::role(&value)?),
+        Action::Host => parsed.host = Some(network::host(&value)?),
+        Action::Port => parsed.port = Some(network::port(&value)?),
+        Action::KeyFile => parsed.key_file = Some(value),
+        Action::StatusPort => parsed.status = Some(network::status(&value)?),
+        Action::MakeKey => parsed.make_key = Some(value),
         Action::Check => parsed.check = true,
         Action::PrintSettings => parsed.print_settings = true,
         Action::DumpMetadata => parsed.dump_metadata = Some(value),

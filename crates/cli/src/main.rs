@@ -4,13 +4,15 @@ mod console;
 mod cpu;
 mod films;
 mod flags;
+mod net;
 mod packs;
 mod paths;
 mod ptest;
 mod render;
+mod saver;
 
 use console::{Console, Verbosity};
-use flags::Arguments;
+use flags::{Arguments, Role};
 use indigo_decl::Resolver;
 use indigo_diag::{Diagnostic, Severity, Sink, SourceMap, summary_to_json, to_json};
 use indigo_igs::Limits;
@@ -80,6 +82,12 @@ fn run(arguments: &Arguments, console: &mut Console) -> u8 {
     if arguments.unpack {
         return packs::unpack(arguments, console);
     }
+    if let Some(path) = &arguments.make_key {
+        return net::make_key(Path::new(path), console);
+    }
+    if arguments.network == Some(Role::Slave) {
+        return net::slave(arguments, console);
+    }
     let Some(scene) = arguments.files.first() else {
         console.error("no scene is given: indigo_console SCENE.igs [options]; --help lists all options");
         return BAD_INPUT;
@@ -126,6 +134,9 @@ fn run(arguments: &Arguments, console: &mut Console) -> u8 {
         Some(scene) => match (arguments.strategies, named) {
             _ if arguments.replay.is_some() => tell_sample(&scene, arguments, console),
             (Some(passes), Some(picture)) => show_strategies(&scene, arguments, passes, &picture, console),
+            (_, named) if arguments.network.is_some() => {
+                net::master(scene, &read, arguments, saved, named, console)
+            }
             (_, named) => render::render(scene, &read, arguments, saved, named, console),
         },
         None if loaded.sink.has_errors() => BAD_INPUT,

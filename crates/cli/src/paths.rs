@@ -29,14 +29,24 @@ fn program_directory() -> Option<PathBuf> {
     Some(std::env::current_exe().ok()?.parent()?.to_path_buf())
 }
 
-/// Where built trees are kept: the user's cache directory, or `INDIGO_CACHE`.
+/// Where built trees are kept.
 pub fn tree_cache() -> PathBuf {
+    cache().join("tree_cache")
+}
+
+/// Where a slave keeps the scenes of its masters.
+pub fn pack_cache() -> PathBuf {
+    cache().join("packs")
+}
+
+/// The user's cache directory, or `INDIGO_CACHE`.
+fn cache() -> PathBuf {
     let from = |name: &str| std::env::var_os(name).filter(|v| !v.is_empty()).map(PathBuf::from);
     let base = from("INDIGO_CACHE")
         .or_else(|| from("XDG_CACHE_HOME").map(|d| d.join("indigo")))
         .or_else(|| from("LOCALAPPDATA").map(|d| d.join("Indigo/cache")))
         .or_else(|| from("HOME").map(|d| d.join(".cache/indigo")));
-    base.unwrap_or_else(std::env::temp_dir).join("tree_cache")
+    base.unwrap_or_else(std::env::temp_dir)
 }
 
 /// The picture's path from the one that the user gives: ending in `.png`, which may be left out.

@@ -2,11 +2,12 @@
 
 use crate::console::{Console, clock, scaled};
 use crate::flags::Arguments;
+use crate::saver::Saver;
 use crate::{BAD_INPUT, FAILED, RENDERED, VERSION, count, paths};
 use indigo_film::SavedFilm;
 use indigo_render::denoise::Denoiser;
 use indigo_render::first_hits::SceneFirstHits;
-use indigo_render::output::{OutputPaths, SaveError, SaveJob, Saved, Saving};
+use indigo_render::output::{OutputPaths, SaveJob, Saved};
 use indigo_render::{Event, Halt, HaltReason, Options, Progress, Session, SessionError, preview};
 use indigo_scene::schema::settings::MOST_THREADS;
 use indigo_scene::{Development, OutputSettings, Scene};
@@ -30,6 +31,18 @@ pub fn logical_cores() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
 
+/// A render that can begin: what it takes was found, and what it writes can be written.
+pub struct Prepared {
+    /// The scene.
+    pub scene: Arc<Scene>,
+    /// What a session is told to do.
+    pub options: Options,
+    /// What is saved, and where to.
+    pub job: SaveJob,
+    /// Keeps others away from the picture's name.
+    _picture: Picture,
+}
+
 /// Renders a scene; the exit status.
 ///
 /// `saved` is the film to go on with, if any; `named` is the picture's path, if the user has given one; `read` are the files
@@ -42,27 +55,61 @@ pub fn render(
     named: Option<PathBuf>,
     console: &mut Console,
 ) -> u8 {
+    let prepared = match prepare(scene, read, arguments, saved.as_ref(), named, console) {
+        Ok(prepared) => prepared,
+        Err(status) => return status,
+    };
+    let Prepared { scene, options, job, .. } = &prepared;
+    let session = match &saved {
+        Some(saved) => Session::go_on(Arc::clone(scene), options, saved),
+        None => Session::start(Arc::clone(scene), options),
+    };
+    match session {
+        Ok(session) => {
+            describe_film(arguments.resume.as_deref(), saved.as_ref(), console);
+            // The session has a copy.
+            drop(saved);
+            follow(session, job, console)
+        }
+        Err(error) => fail(&error, console),
+    }
+}
+
+/// Gets ready to render a scene; see [`render`].
+///
+/// # Errors
+/// The exit status where that cannot be; the reason was told.
+pub fn prepare(
+    scene: Scene,
+    read: &[PathBuf],
+    arguments: &Arguments,
+    saved: Option<&SavedFilm>,
+    named: Option<PathBuf>,
+    console: &mut Console,
+) -> Result<Prepared, u8> {
     let scene = Arc::new(scene);
     describe(&scene, console);
     // Before anything is written.
-    if let Some(Err(error)) = saved.as_ref().map(|saved| Session::check(&scene, saved)) {
-        return fail(&error, console);
+    if let Some(Err(error)) = saved.map(|saved| Session::check(&scene, saved)) {
+        return Err(fail(&error, console));
     }
     let picture = match Picture::new(named, &scene, arguments, console) {
         Ok(picture) => picture,
         Err(error) => {
             console.error(&format!("there can be no picture in renders: {error}"));
-            return FAILED;
+            return Err(FAILED);
         }
     };
     let options = Options {
         threads: scene.output.threads.unwrap_or_else(logical_cores).min(MOST_THREADS),
-        seed: arguments.seed.unwrap_or_else(|| seed_of(saved.as_ref())),
+        seed: arguments.seed.unwrap_or_else(|| seed_of(saved)),
         halt: Halt { relative_error: arguments.halt_error, ..halt(&scene.output) },
         epoch: epoch(&scene.output),
         ..Options::default()
     };
-    let development = scene.development();
+    let mut development = scene.development();
+    // A master that dies is started anew with its film.
+    development.output.igi |= arguments.network.is_some();
     let job = SaveJob {
         denoiser: denoiser(&development, console),
         development,
@@ -76,7 +123,7 @@ pub fn render(
         scene.output.aperture_preview.then(|| picture.path().with_file_name(paths::APERTURE_PREVIEW));
     if let Some(error) = overwrites(job.files().chain(preview.clone()), read) {
         console.error(&error);
-        return BAD_INPUT;
+        return Err(BAD_INPUT);
     }
     if let Some(path) = preview {
         preview_aperture(&scene, &path, console);
@@ -87,20 +134,10 @@ pub fn render(
     // Now rather than after hours of rendering.
     if let Err(error) = job.check_writable() {
         console.error(&error.to_string());
-        return FAILED;
+        return Err(FAILED);
     }
     catch_interrupts(console);
-    let session = match &saved {
-        Some(saved) => Session::go_on(Arc::clone(&scene), &options, saved),
-        None => Session::start(Arc::clone(&scene), &options),
-    };
-    match session {
-        Ok(session) => {
-            describe_film(arguments.resume.as_deref(), saved, console);
-            follow(session, &job, console)
-        }
-        Err(error) => fail(&error, console),
-    }
+    Ok(Prepared { scene, options, job, _picture: picture })
 }
 
 /// What to say where a file that is to be written is one of those that were read, by whatever name.
@@ -125,7 +162,7 @@ pub fn say_missing_folder(file: &Path, console: &mut Console) {
 }
 
 /// Says why there is no session; the exit status.
-fn fail(error: &SessionError, console: &mut Console) -> u8 {
+pub fn fail(error: &SessionError, console: &mut Console) -> u8 {
     console.error(&error.to_string());
     if matches!(error, SessionError::Mismatch(_)) { BAD_INPUT } else { FAILED }
 }
@@ -170,8 +207,8 @@ fn seed_of(saved: Option<&SavedFilm>) -> u64 {
     saved.and_then(|s| s.record.as_ref()?.runs.last()).map_or(0, |run| run.seed)
 }
 
-/// Says what is gone on with, and frees it: the session has a copy.
-fn describe_film(path: Option<&str>, saved: Option<SavedFilm>, console: &mut Console) {
+/// Says what is gone on with.
+pub fn describe_film(path: Option<&str>, saved: Option<&SavedFilm>, console: &mut Console) {
     let (Some(path), Some(SavedFilm { film, record: Some(record) })) = (path, saved) else { return };
     let spp = record.samples as f64 / film.size.pixels() as f64;
     let time = clock(Duration::try_from_secs_f64(record.elapsed_s).unwrap_or_default());
@@ -245,8 +282,13 @@ fn epoch(output: &OutputSettings) -> Duration {
     Options::default().epoch.min(period)
 }
 
+/// Whether Ctrl-C was pressed.
+pub fn is_interrupted() -> bool {
+    INTERRUPTS.load(Ordering::Relaxed) > 0
+}
+
 /// The first Ctrl-C ends the render in good order, the second one leaves at once.
-fn catch_interrupts(console: &mut Console) {
+pub fn catch_interrupts(console: &mut Console) {
     #[expect(clippy::disallowed_methods, reason = "the second Ctrl-C asks for just that")]
     let leave = || std::process::exit(130);
     let caught = ctrlc::set_handler(move || {
@@ -259,18 +301,21 @@ fn catch_interrupts(console: &mut Console) {
     }
 }
 
+/// Time between lines of progress.
+pub fn between_lines(output: &OutputSettings, console: &Console) -> Duration {
+    if console.is_terminal() {
+        ON_TERMINAL
+    } else {
+        Duration::try_from_secs_f64(output.display_period).unwrap_or(Duration::MAX).max(LEAST_BETWEEN_LINES)
+    }
+}
+
 /// Follows a session to its end; the exit status.
 fn follow(mut session: Session, job: &SaveJob, console: &mut Console) -> u8 {
     let output = &job.development.output;
-    let seconds = |s: f64| Duration::try_from_secs_f64(s).unwrap_or(Duration::MAX);
-    let period = seconds(output.image_save_period);
-    let mut saver = Saver { job, period, saving: None, last: Instant::now(), announced: false, failures: 0 };
+    let mut saver = Saver::new(job);
     let mut last_line: Option<Instant> = None;
-    let between = if console.is_terminal() {
-        ON_TERMINAL
-    } else {
-        seconds(output.display_period).max(LEAST_BETWEEN_LINES)
-    };
+    let between = between_lines(output, console);
     loop {
         match session.wait(ON_TERMINAL.min(between).min(saver.until_due())) {
             Event::Progress(progress) => {
@@ -278,8 +323,8 @@ fn follow(mut session: Session, job: &SaveJob, console: &mut Console) -> u8 {
                     console.progress(&progress);
                     last_line = Some(Instant::now());
                 }
-                saver.tend(&session, console);
-                if INTERRUPTS.load(Ordering::Relaxed) > 0 {
+                saver.tend(|| session.saved(&job.version), console);
+                if is_interrupted() {
                     session.stop();
                 }
             }
@@ -300,7 +345,7 @@ fn finish(
     if let HaltReason::Failed(message) = reason {
         console.error(message);
     }
-    let saved = session.saved(&saver.job.version);
+    let saved = session.saved(&saver.job().version);
     if saved.film.refused > 0 {
         console.warn(&format!(
             "{} contributions were not finite and were left out: this is a bug, please report it",
@@ -308,7 +353,7 @@ fn finish(
         ));
     }
     let start = Instant::now();
-    let is_saved = say_saved(&saver.job.save(&saved), console);
+    let is_saved = say_saved(&saver.job().save(&saved), console);
     console.detail(&format!("Developed and saved in {:.2} s", start.elapsed().as_secs_f64()));
     if is_saved && !matches!(reason, HaltReason::Failed(_)) { RENDERED } else { FAILED }
 }
@@ -322,56 +367,4 @@ pub fn say_saved(saved: &Saved, console: &mut Console) -> bool {
         console.error(&error.to_string());
     }
     saved.failures.is_empty()
-}
-
-/// Saves the picture now and then, one save at a time.
-struct Saver<'a> {
-    job: &'a SaveJob,
-    period: Duration,
-    saving: Option<Saving>,
-    last: Instant,
-    announced: bool,
-    failures: usize,
-}
-
-impl Saver<'_> {
-    /// Time until the next save is due. While one is under way the next cannot begin: then it is looked after
-    /// as often as the system lets a thread sleep and wake without effort.
-    fn until_due(&self) -> Duration {
-        const WHILE_SAVING: Duration = Duration::from_millis(5);
-        self.period.saturating_sub(self.last.elapsed()).max(WHILE_SAVING)
-    }
-
-    fn tend(&mut self, session: &Session, console: &mut Console) {
-        if self.saving.as_ref().is_some_and(Saving::is_finished) {
-            self.wait_for_last(console);
-        }
-        if self.saving.is_none() && self.last.elapsed() >= self.period {
-            self.last = Instant::now();
-            match self.job.spawn(session.saved(&self.job.version)) {
-                Ok(saving) => self.saving = Some(saving),
-                Err(error) => self.complain(&error, console),
-            }
-        }
-    }
-
-    fn wait_for_last(&mut self, console: &mut Console) {
-        let Some(mut saved) = self.saving.take().map(Saving::finish) else { return };
-        let first_failure = (!saved.failures.is_empty()).then(|| saved.failures.swap_remove(0));
-        if let Some(error) = first_failure {
-            self.complain(&error, console);
-        } else if !self.announced {
-            self.announced = true;
-            say_saved(&saved, console);
-        }
-    }
-
-    /// A save that fails does not end the render: the disk may have room again later. It is said the
-    /// first time and then ever more rarely.
-    fn complain(&mut self, error: &SaveError, console: &mut Console) {
-        self.failures += 1;
-        if self.failures.is_power_of_two() {
-            console.warn(&format!("{error}; rendering goes on, and saving will be tried again"));
-        }
-    }
 }

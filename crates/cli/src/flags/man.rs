@@ -25,7 +25,8 @@ pub fn man() -> String {
          .TP\n.B 1\nRendering, or reading or writing files, failed.\n\
          .TP\n.B 2\nThe scene or the command line is wrong.\n\
          .SH ENVIRONMENT\n\
-         .TP\n.B INDIGO_CACHE\nThe folder that keeps built trees.\n\
+         .TP\n.B INDIGO_CACHE\nThe folder that keeps built trees, and scenes of network masters.\n\
+         .TP\n.B INDIGO_KEY\nThe key of a network render, where no file of it is given.\n\
          .TP\n.B INDIGO_OIDN\nThe file of the library Open Image Denoise.\n\
          .TP\n.B INDIGO_RESOURCES\nA folder of files that scenes may name, such as nkdata.\n\
          .TP\n.B NO_COLOR\nIf it is set, messages have no colours.\n\

@@ -29,6 +29,18 @@ pub enum Action {
     Strategies,
     /// Tells a sample in words.
     Replay,
+    /// Takes part in a render of many machines.
+    Network,
+    /// Names the master's machine.
+    Host,
+    /// Chooses the port that a master listens at.
+    Port,
+    /// Names the file of the shared key.
+    KeyFile,
+    /// Makes a key.
+    MakeKey,
+    /// Shows how things stand.
+    StatusPort,
     /// Reads and reports, without rendering.
     Check,
     /// Lists the settings.
@@ -165,6 +177,37 @@ pub static FLAGS: &[Flag] = &[
         Some("SEED:UNIT:INDEX"),
         Action::Replay,
         "For developers: print a single sample of the render, instead of rendering: where it falls, its wavelengths, its vertices, and what each strategy adds. Units are numbered from 0, and a unit's samples, too.",
+    ),
+    flag(
+        "n",
+        Some("s|m|wm"),
+        Action::Network,
+        "Render on many machines: as slave (s), which gets its scene from a master; as master (m), which adds up what slaves render, and saves it; or as working master (wm), which renders besides. The film (.igi) is always saved: a master that was killed goes on with it (-r), and its slaves with it.",
+    ),
+    flag(
+        "h",
+        Some("HOST:PORT"),
+        Action::Host,
+        "The machine on which a slave finds its master, and the port, if that is not 7777. Without it the local network is searched for a master.",
+    ),
+    flag("p", Some("PORT"), Action::Port, "Let a master listen at this port. Without it: 7777."),
+    flag(
+        "key-file",
+        Some("FILE"),
+        Action::KeyFile,
+        "The file of the key that a master and its slaves share; or the variable INDIGO_KEY holds the key itself. Without a key only slaves on the master's own machine can join.",
+    ),
+    flag(
+        "make-key",
+        Some("FILE"),
+        Action::MakeKey,
+        "Make a new key, and write it to a new file that nobody else may read: copy it to all machines of a network render.",
+    ),
+    flag(
+        "status-port",
+        Some("PORT"),
+        Action::StatusPort,
+        "Let a master show how things stand at http://localhost:PORT/: a page with the picture and all slaves; /status.json for scripts, /metrics for Prometheus. For other machines to see it, give the address to listen at, too: 0.0.0.0:PORT.",
     ),
     flag("check", None, Action::Check, "Read the scene and report what is wrong with it, without rendering."),
     flag(

@@ -46,7 +46,6 @@ fn mistakes_get_a_helpful_answer() {
     );
     assert!(parsed(&["--tonemap", "s.igs", "f.igi", "x.png", "-denoise", "-layers", "-json"]).is_ok());
     assert_eq!(error(&["--check=1"]), "-check takes no value");
-    assert_eq!(error(&["-n", "m"]), "-n is not in this version yet");
     assert!(error(&["-seed", "-3"]).contains("whole number"));
     for value in ["1", "1:2", "1:2:3:4", "1:2:x", "1:2:-3"] {
         assert!(error(&["a.igs", "-replay", value]).contains("SEED:UNIT:INDEX"), "{value}");
@@ -62,4 +61,27 @@ fn every_option_is_in_the_help_and_has_a_name_of_its_own() {
         assert!(FLAGS[i + 1..].iter().all(|f| f.name != flag.name));
     }
     assert!(help.lines().all(|l| l.len() <= 100), "{help}");
+}
+
+#[test]
+fn network_options_go_with_their_part() {
+    let error = |words: &[&str]| parsed(words).unwrap_err();
+    let slave = parsed(&["-n", "s", "-h", "lust:7778", "-t", "2", "-seed", "3"]).unwrap();
+    assert_eq!((slave.network, slave.host), (Some(Role::Slave), Some(("lust".to_owned(), 7778))));
+    let master = parsed(&["a.igs", "-n", "wm", "-p", "8000", "--key-file", "k"]).unwrap();
+    assert_eq!((master.network, master.port), (Some(Role::WorkingMaster), Some(8000)));
+    let status = |value: &str| parsed(&["a.igs", "-n", "m", "--status-port", value]).map(|a| a.status);
+    assert_eq!(status("8080"), Ok(Some("127.0.0.1:8080".parse().unwrap())));
+    assert_eq!(status("0.0.0.0:8080"), Ok(Some("0.0.0.0:8080".parse().unwrap())));
+    assert!(status("lust").unwrap_err().contains("0.0.0.0:8080"));
+    assert!(error(&["-n", "x"]).contains("s (slave), m (master) or wm (working master), not x"));
+    assert!(error(&["-n", "s", "a.igs"]).contains("gets its scene from the master"));
+    assert!(error(&["-n", "s", "-p", "1"]).contains("-h HOST:PORT"));
+    assert!(error(&["-n", "s", "-o", "x.png"]).contains("-o has no part in -n s"));
+    assert!(error(&["-n", "s", "-h", "lust:x"]).contains("-h lust:7777"));
+    assert!(error(&["a.igs", "-n", "m", "-p", "70000"]).contains("number of a port"));
+    assert!(error(&["a.igs", "-n", "m", "-h", "lust"]).contains("-h has no part"));
+    assert!(error(&["a.igs", "-n", "m", "-seed", "1"]).contains("-seed has no part in -n m"));
+    assert!(error(&["a.igs", "-n", "wm", "-halterror", "0.1"]).contains("-halterror has no part"));
+    assert!(error(&["a.igs", "-p", "1"]).contains("-n s, -n m or -n wm"));
 }

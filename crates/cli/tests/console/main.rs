@@ -8,4 +8,5 @@ mod packs;
 mod saying;
 #[cfg(unix)]
 mod signals;
+#[allow(dead_code, reason = "every test program uses its own part")]
 mod workbench;

@@ -11,6 +11,8 @@ pub const PATIENCE: Duration = Duration::from_mins(2);
 /// An empty directory of its own for each test, removed at the end.
 pub struct Workbench {
     pub directory: PathBuf,
+    /// What programs are started by, if not by themselves.
+    pub wrapper: Vec<String>,
 }
 
 impl Workbench {
@@ -21,7 +23,7 @@ impl Workbench {
             format!("indigo-console-{}-{}", std::process::id(), NUMBER.fetch_add(1, Ordering::Relaxed));
         let directory = std::env::temp_dir().join(name);
         std::fs::create_dir_all(&directory).expect("a directory for the test's files");
-        let bench = Self { directory };
+        let bench = Self { directory, wrapper: vec![] };
         bench.write("scene.igs", &scene(settings));
         bench
     }
@@ -46,12 +48,21 @@ impl Workbench {
     }
 
     fn command(&self, arguments: &[&str]) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_indigo_console"));
+        let program = env!("CARGO_BIN_EXE_indigo_console");
+        let mut command = match &self.wrapper[..] {
+            [] => Command::new(program),
+            [wrapper, rest @ ..] => {
+                let mut command = Command::new(wrapper);
+                command.args(rest).arg(program);
+                command
+            }
+        };
         command
             .args(arguments)
             .current_dir(&self.directory)
             .env("INDIGO_CACHE", self.path("cache"))
             .env_remove("INDIGO_RESOURCES")
+            .env_remove("INDIGO_KEY")
             .stdin(Stdio::null());
         command
     }
@@ -116,11 +127,20 @@ impl Workbench {
 
     /// Starts, with what it says going to files.
     pub fn start(&self, arguments: &[&str]) -> Running {
+        self.start_into(["stdout", "stderr"], arguments)
+    }
+
+    /// The same with files that begin with a name.
+    pub fn start_as(&self, name: &str, arguments: &[&str]) -> Running {
+        self.start_into([&format!("{name}.stdout"), &format!("{name}.stderr")], arguments)
+    }
+
+    fn start_into(&self, [stdout, stderr]: [&str; 2], arguments: &[&str]) -> Running {
         let file = |name: &str| std::fs::File::create(self.path(name)).expect("the test's own directory");
         let child = self
             .command(arguments)
-            .stdout(file("stdout"))
-            .stderr(file("stderr"))
+            .stdout(file(stdout))
+            .stderr(file(stderr))
             .spawn()
             .expect("the program starts");
         Running(child)

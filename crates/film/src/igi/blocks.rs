@@ -87,9 +87,8 @@ impl<'a> Packed<'a> {
     pub fn unpack(self, values: &mut [f64]) -> Result<(), IgiError> {
         let Self { blocks, precision } = self;
         let blocks = values.par_chunks_mut(BLOCK).zip(blocks);
-        blocks.try_for_each_init(Vec::new, |planes, (values, packed)| {
-            unpack(packed, precision, planes, values)
-        })
+        blocks
+            .try_for_each_init(Vec::new, |planes, (values, packed)| unpack(packed, precision, planes, values))
     }
 
     /// Unpacks block `i`, which has as many numbers as are asked for; `planes` is room for its bytes.

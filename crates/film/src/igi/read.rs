@@ -206,7 +206,8 @@ impl<'a> Content<'a> {
             return Err(IgiError::Malformed("there are too many layers"));
         }
         // What is missing is noticed before room is made for any of it.
-        let layers = (0..count).map(|_| PackedLayer::read(&mut bytes, size, precision)).collect::<Result<_, _>>()?;
+        let layers =
+            (0..count).map(|_| PackedLayer::read(&mut bytes, size, precision)).collect::<Result<_, _>>()?;
         if !bytes.0.is_empty() {
             return Err(IgiError::Malformed("something follows the last layer"));
         }

@@ -1,0 +1,334 @@
+//! `-n m` and `-n wm`.
+
+use super::{events, fail, key};
+use crate::console::Console;
+use crate::flags::{Arguments, Role};
+use crate::render::{
+    Prepared, between_lines, describe_film, fail as fail_session, is_interrupted, prepare, program, say_saved,
+};
+use crate::saver::Saver;
+use crate::{BAD_INPUT, FAILED, RENDERED, count, packs, paths};
+use indigo_film::SavedFilm;
+use indigo_net::event::Event;
+use indigo_net::ledger::Refusal;
+use indigo_net::limits::PORT;
+use indigo_net::master::{Master, OwnStatus, SceneParcel, Setup};
+use indigo_render::disk::read_limited;
+use indigo_render::saved::blank_film;
+use indigo_render::{Event as SessionEvent, Halt, HaltReason, Options, Progress, Session};
+use indigo_scene::Scene;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::mpsc::Receiver;
+use std::time::{Duration, Instant};
+
+/// How long Ctrl-C may go unnoticed.
+const PULSE: Duration = Duration::from_millis(50);
+/// How long slaves have, at the end, to begin sending what they have.
+const GRACE: Duration = Duration::from_secs(20);
+/// How long they have in all, if they do.
+const LONGEST_GRACE: Duration = Duration::from_mins(5);
+/// Settings that are each machine's own.
+const OWN: [&str; 2] = ["num_threads", "auto_choose_num_threads"];
+
+/// Adds up what slaves render until told to stop; the exit status. See [`render`](crate::render::render).
+pub fn master(
+    scene: Scene,
+    read: &[PathBuf],
+    arguments: &Arguments,
+    saved: Option<SavedFilm>,
+    named: Option<PathBuf>,
+    console: &mut Console,
+) -> u8 {
+    let key = match key(arguments, console) {
+        Ok(key) => key,
+        Err(status) => return status,
+    };
+    let parcel = match parcel(&scene, arguments) {
+        Ok(parcel) => parcel,
+        Err(message) => {
+            console.error(&message);
+            return BAD_INPUT;
+        }
+    };
+    let prepared = match prepare(scene, read, arguments, saved.as_ref(), named, console) {
+        Ok(prepared) => prepared,
+        Err(status) => return status,
+    };
+    let Prepared { scene, options, job, .. } = &prepared;
+    let film = match saved {
+        Some(saved) => {
+            describe_film(arguments.resume.as_deref(), Some(&saved), console);
+            saved
+        }
+        None => blank_film(scene, &job.version),
+    };
+    let is_open = key.is_some();
+    let (sink, events) = events();
+    let setup = Setup {
+        scene: parcel,
+        film,
+        program: program(),
+        key,
+        port: arguments.port.unwrap_or(PORT),
+        page: arguments.status.map(|address| (address, job.paths.png.clone())),
+    };
+    let master = match Master::start(setup, sink) {
+        Ok(master) => master,
+        Err(error) => return fail(&error, console),
+    };
+    say_where(&master, is_open, console);
+    say_page(&master, console);
+    let own = match arguments.network {
+        Some(Role::WorkingMaster) => match Own::start(scene, options, arguments, &master) {
+            Ok(own) => Some(own),
+            Err(error) => return fail_session(&error, console),
+        },
+        _ => None,
+    };
+    Run { master, own, events, halt: options.halt, started: Instant::now(), saver: Saver::new(job) }
+        .follow(between_lines(&scene.output, console), console)
+}
+
+/// The scene as slaves get it.
+fn parcel(scene: &Scene, arguments: &Arguments) -> Result<SceneParcel, String> {
+    let pack = packs::in_memory(&scene.output.scene_path, arguments)?;
+    let settings_file = paths::inifile()
+        .map(|path| read_limited(Path::new(&path)).map_err(|error| format!("cannot read {path}: {error}")))
+        .transpose()?;
+    let overrides = arguments.settings.iter().filter(|setting| !OWN.contains(&setting.setting));
+    let texts = overrides.map(|s| [s.option.to_owned(), s.setting.to_owned(), s.value.clone()]);
+    Ok(SceneParcel::new(scene, pack, settings_file, texts.collect()))
+}
+
+/// Says where slaves find the master.
+fn say_where(master: &Master, is_open: bool, console: &mut Console) {
+    let address = master.address();
+    if is_open {
+        console.say(&format!("Waiting for slaves that have the key, at port {}", address.port()));
+    } else {
+        console.say(&format!(
+            "Waiting for slaves of this machine alone, at {address}; to let others join, make a key with \
+             indigo_console --make-key FILE, and give it to master and slaves by --key-file"
+        ));
+    }
+}
+
+/// Says where people can look.
+fn say_page(master: &Master, console: &mut Console) {
+    if let Some(page) = master.page() {
+        console.say(&format!("How things stand is shown at http://{page}/"));
+    }
+}
+
+/// What a working master renders itself.
+struct Own {
+    session: Session,
+    seed: u64,
+    threads: usize,
+    /// Samples that were added to the film.
+    added: u64,
+    progress: Progress,
+    /// Why it has ended by itself.
+    ended: Option<HaltReason>,
+}
+
+impl Own {
+    fn start(
+        scene: &Arc<Scene>,
+        options: &Options,
+        arguments: &Arguments,
+        master: &Master,
+    ) -> Result<Self, indigo_render::SessionError> {
+        // Not the last of the film's, which may be that of a slave who is still at work. Slaves draw theirs from so many
+        // that this is none of them.
+        let seed = arguments.seed.unwrap_or(0);
+        // The film's halting conditions are not the session's.
+        let options = Options { seed, halt: Halt::default(), ..options.clone() };
+        let mut session = Session::start_beside(Arc::clone(scene), &options, &master.record())?;
+        let progress = session.progress();
+        Ok(Self { session, seed, threads: options.threads, added: 0, progress, ended: None })
+    }
+
+    /// Lets it work for so long.
+    fn wait(&mut self, time: Duration, master: &Master) {
+        match self.session.wait(time) {
+            SessionEvent::Progress(progress) => self.progress = progress,
+            SessionEvent::Halted(reason, progress) => {
+                self.progress = progress;
+                self.ended.get_or_insert(reason);
+                // It waits no more by itself.
+                std::thread::sleep(time);
+            }
+        }
+        self.tell(master);
+    }
+
+    fn tell(&self, master: &Master) {
+        master.tell_own(OwnStatus {
+            threads: self.threads,
+            samples_per_second: self.progress.samples_per_second,
+            pending: self.progress.samples.saturating_sub(self.added),
+        });
+    }
+
+    /// Adds what it has rendered to the film.
+    fn hand_over(&mut self, master: &Master, program: &str) -> Result<(), Refusal> {
+        let Some(film) = self.session.drain(program) else { return Ok(()) };
+        master.add(self.seed, &film)?;
+        self.added += film.record.as_ref().map_or(0, |record| record.samples);
+        self.progress = self.session.progress();
+        self.tell(master);
+        Ok(())
+    }
+
+    /// Ends it, with all that it has.
+    fn end(&mut self, master: &Master, program: &str) -> Result<(), Refusal> {
+        self.session.stop();
+        while !matches!(self.session.wait(PULSE), SessionEvent::Halted(..)) {}
+        self.hand_over(master, program)
+    }
+}
+
+/// Says that what was rendered here is not taken.
+fn complain(refusal: &Refusal, console: &mut Console) {
+    console.warn(&format!("what was rendered here does not fit the film: {refusal}"));
+}
+
+/// A render of many machines.
+struct Run<'a> {
+    master: Master,
+    own: Option<Own>,
+    events: Receiver<Event>,
+    halt: Halt,
+    started: Instant,
+    saver: Saver<'a>,
+}
+
+impl Run<'_> {
+    /// Until it is to end; the exit status.
+    fn follow(mut self, between: Duration, console: &mut Console) -> u8 {
+        let mut last_line: Option<Instant> = None;
+        loop {
+            self.pass(PULSE.min(between).min(self.saver.until_due()), console);
+            let progress = self.progress();
+            if last_line.is_none_or(|t| t.elapsed() >= between) {
+                last_line = Some(Instant::now());
+                console.progress_of(&progress, &self.company());
+            }
+            self.save(console);
+            let failure = self.own.as_ref().and_then(|own| own.ended.clone());
+            if failure.is_some() || is_interrupted() || self.is_enough(&progress) {
+                return self.finish(failure.as_ref(), console);
+            }
+        }
+    }
+
+    /// Lets time pass.
+    fn pass(&mut self, time: Duration, console: &mut Console) {
+        match &mut self.own {
+            Some(own) => own.wait(time, &self.master),
+            None => {
+                // It may also be that there will be none any more.
+                if let Ok(event) = self.events.recv_timeout(time) {
+                    console.event(&event);
+                }
+            }
+        }
+        for event in self.events.try_iter() {
+            console.event(&event);
+        }
+    }
+
+    fn save(&mut self, console: &mut Console) {
+        let Self { master, own, saver, .. } = self;
+        let version = &saver.job().version;
+        let mut refusal = None;
+        let film = || {
+            refusal = own.as_mut().and_then(|own| own.hand_over(master, version).err());
+            master.copy()
+        };
+        if let Some(record) = saver.tend(film, console) {
+            master.saved(record);
+        }
+        if let Some(refusal) = refusal {
+            complain(&refusal, console);
+        }
+    }
+
+    fn is_enough(&self, progress: &Progress) -> bool {
+        self.halt.time.is_some_and(|time| progress.elapsed >= time)
+            || self.halt.samples_per_pixel.is_some_and(|spp| progress.samples_per_pixel >= spp as f64)
+    }
+
+    /// How far it is, with what has been rendered here and is not in the film yet.
+    fn progress(&self) -> Progress {
+        let status = self.master.status();
+        let pixels = (f64::from(status.size[0]) * f64::from(status.size[1])).max(1.0);
+        let (samples, samples_per_second) = (status.samples, status.samples_per_second);
+        let elapsed = self.started.elapsed();
+        let by_samples = self.halt.samples_per_pixel.map(|spp| {
+            let wanted = spp as f64 * pixels;
+            let left = (wanted - samples as f64).max(0.0) / samples_per_second;
+            (samples as f64 / wanted.max(1.0), if left.is_finite() { left } else { f64::MAX })
+        });
+        let by_time = self.halt.time.map(|time| {
+            (elapsed.as_secs_f64() / time.as_secs_f64(), time.saturating_sub(elapsed).as_secs_f64())
+        });
+        let next = [by_samples, by_time].into_iter().flatten().min_by(|a, b| a.1.total_cmp(&b.1));
+        Progress {
+            samples,
+            samples_per_pixel: samples as f64 / pixels,
+            samples_per_second,
+            rays: self.own.as_ref().map_or(0, |own| own.progress.rays),
+            elapsed,
+            left: next.and_then(|(_, left)| Duration::try_from_secs_f64(left).ok()),
+            fraction: next.map(|(fraction, _)| fraction.clamp(0.0, 1.0)),
+            relative_error: None,
+        }
+    }
+
+    /// Who else is at work.
+    fn company(&self) -> String {
+        format!("   {}", count(self.master.status().present, "slave"))
+    }
+
+    /// Gathers the last of what there is, and saves it; the exit status.
+    fn finish(mut self, failure: Option<&HaltReason>, console: &mut Console) -> u8 {
+        let program = self.saver.job().version.clone();
+        self.master.begin_end();
+        let ended = self.own.as_mut().map_or(Ok(()), |own| own.end(&self.master, &program));
+        if let Err(refusal) = ended {
+            complain(&refusal, console);
+        }
+        let start = Instant::now();
+        // Those that send may need longer than those that are silent, which a slave that was killed is.
+        let mut samples = self.master.status().samples;
+        let mut last_news = start;
+        while !self.master.is_deserted() && last_news.elapsed() < GRACE && start.elapsed() < LONGEST_GRACE {
+            if let Ok(event) = self.events.recv_timeout(PULSE) {
+                console.event(&event);
+            }
+            let status = self.master.status();
+            let news = status.samples.wrapping_add(status.bytes_received);
+            if news != samples {
+                (samples, last_news) = (news, Instant::now());
+            }
+        }
+        if let Some(record) = self.saver.wait_for_last(console) {
+            self.master.saved(record);
+        }
+        for event in self.events.try_iter() {
+            console.event(&event);
+        }
+        let progress = self.progress();
+        console.last_progress(&progress);
+        if let Some(HaltReason::Failed(message)) = failure {
+            console.error(message);
+        }
+        self.master.close();
+        let film = self.master.copy();
+        let is_saved = say_saved(&self.saver.job().save(&film), console);
+        if is_saved && failure.is_none() { RENDERED } else { FAILED }
+    }
+}

@@ -1,0 +1,98 @@
+//! A long night in a few minutes: processes die and networks break, again and again, by a script that a seed fixes.
+
+use super::farm::{Farm, interrupt, kill};
+use super::proxy::Proxy;
+use super::stories::{assert_all_of, assert_complete};
+use super::workbench::Running;
+use std::time::Duration;
+
+/// More memory than the first rounds have taken that a process may come to hold, in KiB: caches of allocators, and a film or
+/// two of this size. What leaks does so at each upload, of which there are hundreds.
+const GROWTH_KIB: u64 = 48 << 10;
+
+/// SplitMix64 (Steele, Lea and Flood 2014).
+struct Script(u64);
+
+impl Script {
+    fn below(&mut self, n: u64) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        (z ^ (z >> 31)) % n
+    }
+}
+
+/// Memory of a process in KiB, where the system tells.
+fn memory_kib(process: &Running) -> Option<u64> {
+    let status = std::fs::read_to_string(format!("/proc/{}/status", process.0.id())).ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
+    line.trim().strip_suffix("kB")?.trim().parse().ok()
+}
+
+fn soak(rounds: u64, seed: u64) {
+    let mut farm = Farm::new("");
+    farm.start_master("m", &[]);
+    let proxy = Proxy::to(farm.port);
+    // The first lives to the end; it is behind a network that fails.
+    let mut veteran = farm.slave(1, proxy.port);
+    let mut others = [farm.slave(2, farm.port), farm.slave(3, proxy.port)];
+    let mut next = 4;
+    let mut script = Script(seed);
+    farm.wait_for_uploads(1, 2);
+    let before = memory_kib(&veteran);
+    for round in 0..rounds {
+        match script.below(4) {
+            0 => {
+                let victim = script.below(others.len() as u64) as usize;
+                kill(&mut others[victim]);
+                // What it had sent is told by then, so that it can be counted.
+                std::thread::sleep(Duration::from_millis(500));
+                others[victim] = farm.slave(next, if next % 2 == 0 { farm.port } else { proxy.port });
+                next += 1;
+            }
+            1 => {
+                farm.kill_master();
+                std::thread::sleep(Duration::from_millis(script.below(500)));
+                farm.resume_master("m");
+            }
+            2 => {
+                proxy.cut();
+                std::thread::sleep(Duration::from_millis(script.below(1000)));
+                proxy.mend();
+            }
+            _ => {
+                proxy.slow(Duration::from_millis(script.below(30)), 50_000 * script.below(8));
+                std::thread::sleep(Duration::from_millis(script.below(1000)));
+            }
+        }
+        if round % 4 == 3 {
+            // Nothing hangs: whatever has happened, uploads come through.
+            farm.wait_for_uploads(1, 1);
+        }
+    }
+    proxy.slow(Duration::ZERO, 0);
+    farm.wait_for_uploads(1, 1);
+    if let (Some(before), Some(after)) = (before, memory_kib(&veteran)) {
+        assert!(after < before + GROWTH_KIB, "{before} KiB have become {after}");
+    }
+    farm.end_master();
+    assert_all_of(&farm, &[1]);
+    assert_complete(&farm);
+    for slave in others.iter_mut().chain([&mut veteran]) {
+        interrupt(slave);
+        assert_eq!(slave.finish(), Some(0));
+    }
+}
+
+#[test]
+fn a_short_night() {
+    soak(8, 1);
+}
+
+/// Some minutes. `cargo test -p indigo-cli --test network -- --ignored`
+#[test]
+#[ignore = "takes minutes"]
+fn a_long_night() {
+    soak(150, 2);
+}

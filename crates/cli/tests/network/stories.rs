@@ -1,0 +1,158 @@
+//! What happens to renders of many machines.
+
+use super::accounts::samples_up_to;
+use super::agreement::assert_agrees;
+use super::farm::{Farm, interrupt, kill};
+use super::proxy::Proxy;
+use std::time::Duration;
+
+/// The film holds each acknowledged sample once, and no other.
+pub fn assert_complete(farm: &Farm) {
+    let (film, logs) = (farm.film(), farm.logs());
+    let record = film.record.as_ref().expect("ours");
+    let mut sum = 0;
+    for run in &record.runs {
+        assert_eq!(run.first, 0, "{run:?}: nothing is left out");
+        sum += samples_up_to(&logs, run.seed, run.end);
+    }
+    assert_eq!(record.samples, sum, "the film against the sum of what was acknowledged");
+    let counts: f64 = film.film.layers[0].counts.iter().sum();
+    assert_eq!(record.samples as f64, counts);
+}
+
+/// Slaves that live to the end have everything in the film that they were told is there.
+pub fn assert_all_of(farm: &Farm, seeds: &[u64]) {
+    let (film, logs) = (farm.film(), farm.logs());
+    let record = film.record.as_ref().expect("ours");
+    for &seed in seeds {
+        let uploads = logs.iter().flat_map(super::accounts::Log::uploads);
+        let sent = uploads.filter(|upload| upload.seed == seed).map(|upload| upload.end).max();
+        assert_eq!(sent, Some(record.first_fresh_unit(seed)), "of seed {seed}");
+    }
+}
+
+#[test]
+fn a_master_and_four_slaves_through_deaths_and_broken_networks() {
+    let mut farm = Farm::new("");
+    farm.start_master("m", &[]);
+    let proxy = Proxy::to(farm.port);
+    let mut slaves: Vec<_> =
+        (1..=4).map(|seed| farm.slave(seed, if seed <= 2 { proxy.port } else { farm.port })).collect();
+    for seed in 1..=4 {
+        farm.wait_for_uploads(seed, 2);
+    }
+    // A slave dies, and another comes.
+    kill(&mut slaves[3]);
+    slaves[3] = farm.slave(5, farm.port);
+    farm.wait_for_uploads(5, 1);
+    // The network is cut in the midst of things, and comes back late and slow: an upload takes a second or so.
+    proxy.cut();
+    farm.wait_for_times("slave1.json", "\"event\":\"disconnected\"", 1);
+    proxy.slow(Duration::from_millis(20), 100_000);
+    proxy.mend();
+    farm.wait_for_uploads(1, 1);
+    farm.wait_for_uploads(2, 1);
+    // The master dies twice, and goes on with the slaves that are there.
+    for _ in 0..2 {
+        farm.kill_master();
+        std::thread::sleep(Duration::from_millis(300));
+        farm.resume_master("m");
+        for seed in [1, 2, 3, 5] {
+            farm.wait_for_uploads(seed, 1);
+        }
+    }
+    proxy.slow(Duration::ZERO, 0);
+    farm.end_master();
+    assert_complete(&farm);
+    assert_all_of(&farm, &[1, 2, 3, 5]);
+    for slave in &mut slaves {
+        interrupt(slave);
+        assert_eq!(slave.finish(), Some(0));
+    }
+    assert_agrees(&farm.bench, &farm.film());
+}
+
+/// What the master renders itself counts, too, and no random numbers are used twice when it goes on.
+#[test]
+fn a_working_master_dies_and_goes_on() {
+    let mut farm = Farm::new("");
+    farm.start_master("wm", &[]);
+    let mut slave = farm.slave(7, farm.port);
+    farm.wait_for_uploads(7, 2);
+    farm.kill_master();
+    farm.resume_master("wm");
+    farm.wait_for_uploads(7, 1);
+    farm.end_master();
+    let film = farm.film();
+    let record = film.record.as_ref().expect("ours");
+    let seeds: Vec<u64> = record.runs.iter().map(|run| run.seed).collect();
+    assert!(seeds.len() == 2 && seeds.contains(&0) && seeds.contains(&7), "{:?}", record.runs);
+    assert!(record.samples > samples_up_to(&farm.logs(), 7, record.first_fresh_unit(7)), "its own count");
+    let counts: f64 = film.film.layers[0].counts.iter().sum();
+    assert_eq!(record.samples as f64, counts);
+    interrupt(&slave);
+    assert_eq!(slave.finish(), Some(0));
+}
+
+/// A halting condition ends the render, with what slaves had not sent yet.
+#[test]
+fn a_render_ends_at_its_number_of_samples() {
+    let mut farm = Farm::new("");
+    farm.start_master("m", &["-haltspp", "200"]);
+    let mut slaves = [farm.slave(1, farm.port), farm.slave(2, farm.port)];
+    assert_eq!(farm.master.as_mut().map(super::workbench::Running::finish), Some(Some(0)));
+    let film = farm.film();
+    assert!(film.film.samples_per_pixel() >= 200.0);
+    assert_complete(&farm);
+    assert_all_of(&farm, &[1, 2]);
+    // They wait for the next master.
+    for (slave, seed) in slaves.iter_mut().zip(1..) {
+        farm.wait(&format!("slave{seed}.json"), "\"event\":\"finished\"");
+        interrupt(slave);
+        assert_eq!(slave.finish(), Some(0));
+    }
+}
+
+/// A slave needs no file of the scene's, and does not fetch one twice.
+#[test]
+fn scenes_are_fetched_once() {
+    let mut farm = Farm::new("");
+    farm.start_master("m", &[]);
+    for seed in [1, 2] {
+        let mut slave = farm.slave(seed, farm.port);
+        farm.wait_for_uploads(seed, 1);
+        kill(&mut slave);
+    }
+    assert_eq!(farm.text("slave1.json").matches("\"event\":\"fetching\"").count(), 1);
+    assert_eq!(farm.text("slave2.json").matches("\"event\":\"fetching\"").count(), 0);
+}
+
+#[test]
+fn without_the_key_there_is_no_joining() {
+    let mut farm = Farm::new("");
+    farm.start_master("m", &[]);
+    let host = format!("127.0.0.1:{}", farm.port);
+    let mut stranger = farm.bench.start_as("stranger", &["-n", "s", "-h", &host, "-t", "1"]);
+    farm.wait("stranger.stderr", "warning: ");
+    let made = farm.bench.run(&["--make-key", "other"]);
+    assert_eq!(made.status, Some(0), "{made:?}");
+    let mut other =
+        farm.bench.start_as("other_one", &["-n", "s", "-h", &host, "-t", "1", "--key-file", "other"]);
+    farm.wait("other_one.stderr", "has not proved that it has the same key");
+    farm.wait("master1.json", "\"event\":\"refused\"");
+    for process in [&mut stranger, &mut other] {
+        interrupt(process);
+        assert_eq!(process.finish(), Some(0));
+    }
+    let refused = farm.text("master1.json");
+    assert!(
+        refused.contains("\"peer\":\"127.0.0.1:") || refused.contains("\"peer\":\"[::ffff:127.0.0.1]:"),
+        "{refused}"
+    );
+    // No key, no network.
+    let ran = farm.bench.run(&["-n", "s", "-h", "192.0.2.1", "-halt", "1"]);
+    assert!(ran.stderr.contains("--make-key FILE"), "{ran:?}");
+    // A key is never written over.
+    let again = farm.bench.run(&["--make-key", "key"]);
+    assert_eq!(again.status, Some(1), "{again:?}");
+}

@@ -1,0 +1,46 @@
+//! Bounds on what peers may do: nobody's mistake or ill will takes more than this.
+
+use std::time::Duration;
+
+/// The protocol's number: peers of another do not understand each other.
+pub const PROTOCOL: u32 = 1;
+/// The port of the manual.
+pub const PORT: u16 = 7777;
+
+/// The most bytes of a piece of a scene or a parcel. Large enough that its overhead is lost in it, small enough that
+/// reports need not wait long behind it.
+pub const PIECE: usize = 256 << 10;
+/// The most bytes of a message: a piece, or a reply with a settings file, and something for the numbers round them.
+pub const MESSAGE: usize = 1 << 20;
+/// The most connections at a time.
+pub const CONNECTIONS: usize = 256;
+/// The most calls at a time over a connection: a slave makes one after another, and reports meanwhile.
+pub const CALLS: u32 = 8;
+/// The most uploads that are received at a time; others wait, for their turn or until they lose patience. So many films,
+/// compressed, are what a master keeps in memory beside its own.
+pub const UPLOADS: usize = 8;
+/// The most slaves that are remembered, gone ones too.
+pub const SLAVES: usize = 1024;
+/// The longest name of a machine that is shown, in characters.
+pub const NAME: usize = 64;
+/// The most bytes of a packed scene that a slave takes: of no larger file is ever read.
+pub const PACK: u64 = 4 << 30;
+
+/// A peer that says nothing for so long is taken for gone.
+pub const SILENCE: Duration = Duration::from_secs(30);
+/// How often a peer is asked whether it is still there: several times before it is taken for gone.
+pub const KEEP_ALIVE: Duration = Duration::from_secs(8);
+/// How long a connection may take to be made, with all proofs.
+pub const HANDSHAKE: Duration = Duration::from_secs(10);
+/// How long a slave waits for the answer to a short call.
+pub const ANSWER: Duration = Duration::from_secs(30);
+/// How long an upload may take, however slow the network.
+pub const UPLOAD: Duration = Duration::from_mins(30);
+/// Time between a slave's reports.
+pub const REPORTS: Duration = Duration::from_secs(2);
+
+/// The most bytes of a parcel of a film: what its sums take in single precision, and something more, since what cannot
+/// be compressed grows by half a percent, and for the record.
+pub fn parcel_bytes(film_bytes: u64) -> u64 {
+    film_bytes / 2 + film_bytes / 100 + (1 << 20)
+}

@@ -1,0 +1,362 @@
+//! The master: holds the film, hands out the scene, and adds what slaves send.
+
+mod listen;
+mod roster;
+mod service;
+mod status;
+
+pub use roster::Presence;
+pub use status::{OwnStatus, SlaveStatus, Status};
+
+use crate::discovery::Announcement;
+use crate::event::{Event, Sink};
+use crate::key::Key;
+use crate::ledger::{Ledger, Receipt, Refusal};
+use crate::limits::{CALLS, KEEP_ALIVE, MESSAGE, SILENCE, UPLOADS, parcel_bytes};
+use crate::page::{self, View};
+use crate::proto::farm_server::FarmServer;
+use crate::{NetError, tls};
+use bytes::Bytes;
+use indigo_film::{FilmRecord, MasterFilm, SavedFilm};
+use indigo_scene::{Identity, Scene};
+use roster::{Refusals, Roster};
+use std::net::{Ipv4Addr, Ipv6Addr, SocketAddr};
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+use tokio::net::TcpListener;
+use tokio::runtime::Runtime;
+use tokio::sync::{Semaphore, oneshot};
+use tokio_rustls::TlsAcceptor;
+use tokio_stream::wrappers::ReceiverStream;
+use tonic::transport::Server;
+
+/// A setting of the command line: the option as it was written, the setting's name, its value.
+pub type Override = [String; 3];
+
+/// The scene as slaves get it.
+#[derive(Clone, Debug)]
+pub struct SceneParcel {
+    /// What people call it.
+    pub name: String,
+    /// Packed.
+    pub pack: Bytes,
+    /// The master's settings file.
+    pub settings_file: Option<Bytes>,
+    /// Settings of the master's command line.
+    pub overrides: Vec<Override>,
+    /// What a slave must find when it has loaded it.
+    pub identity: Identity,
+    /// How often slaves send what they have rendered.
+    pub upload_period: Duration,
+}
+
+impl SceneParcel {
+    /// With what slaves must know of the scene as the master has loaded it.
+    pub fn new(
+        scene: &Scene,
+        pack: Vec<u8>,
+        settings_file: Option<Vec<u8>>,
+        overrides: Vec<Override>,
+    ) -> Self {
+        Self {
+            name: scene.output.scene_path.clone(),
+            pack: pack.into(),
+            settings_file: settings_file.map(Bytes::from),
+            overrides,
+            identity: scene.identity.clone(),
+            // The setting is positive; more than can be said is for ever.
+            upload_period: Duration::try_from_secs_f64(scene.output.frame_upload_period)
+                .unwrap_or(Duration::MAX),
+        }
+    }
+}
+
+/// What a master is told to do.
+pub struct Setup {
+    /// The scene.
+    pub scene: SceneParcel,
+    /// The film: without samples, or one that is gone on with.
+    pub film: SavedFilm,
+    /// Name, version and platform of the program.
+    pub program: String,
+    /// The shared key; without one only this machine can connect.
+    pub key: Option<Key>,
+    /// The port; 0 takes any that is free.
+    pub port: u16,
+    /// Where the status page is, if there is one, and the picture that it shows.
+    pub page: Option<(SocketAddr, PathBuf)>,
+}
+
+/// What all parts of a master share.
+struct Shared {
+    scene: SceneParcel,
+    pack_hash: [u8; 32],
+    program: String,
+    ledger: Mutex<Ledger>,
+    /// Slaves and refusals.
+    roster: Mutex<Roster>,
+    refusals: Mutex<Refusals>,
+    /// Bytes of the largest parcel that can be one.
+    parcel_limit: u64,
+    uploads: Semaphore,
+    own: Mutex<Option<OwnStatus>>,
+    is_ending: AtomicBool,
+    /// Uploads that are being received or added.
+    busy: AtomicU64,
+    bytes_received: AtomicU64,
+    started: Instant,
+    sink: Sink,
+}
+
+impl Shared {
+    fn ledger(&self) -> MutexGuard<'_, Ledger> {
+        lock(&self.ledger)
+    }
+
+    fn roster(&self) -> MutexGuard<'_, Roster> {
+        lock(&self.roster)
+    }
+
+    fn tell(&self, event: Event) {
+        (self.sink)(event);
+    }
+
+    /// Somebody was turned away.
+    fn refused(&self, peer: SocketAddr, reason: &str) {
+        let told = lock(&self.refusals).add(peer.ip(), Instant::now());
+        if let Some(more) = told {
+            self.tell(Event::Refused { peer, reason: reason.to_owned(), more });
+        }
+    }
+}
+
+impl Shared {
+    /// A connection has ended: whoever called by it and has not said good-bye is gone, or will call again.
+    fn disconnected(&self, peer: SocketAddr) {
+        let lost = self.roster().disconnected(peer);
+        if let Some(name) = lost {
+            self.tell(Event::Lost { slave: name, peer });
+        }
+    }
+}
+
+/// Nothing that is done under these locks can be left half done by a panic and matter.
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// A running master. Dropping it ends all connections.
+pub struct Master {
+    shared: Arc<Shared>,
+    address: SocketAddr,
+    page: Option<SocketAddr>,
+    announcement: Option<Announcement>,
+    end: Option<oneshot::Sender<()>>,
+    runtime: Option<Runtime>,
+}
+
+impl Master {
+    /// Listens.
+    ///
+    /// # Errors
+    /// Where the port is taken, or the system refuses.
+    pub fn start(setup: Setup, sink: Sink) -> Result<Self, NetError> {
+        let Setup { scene, film, program, key, port, page } = setup;
+        let film_bytes = MasterFilm::bytes_needed(film.film.size, film.film.layers.iter().map(|l| l.kind));
+        let shared = Arc::new(Shared {
+            pack_hash: *blake3::hash(&scene.pack).as_bytes(),
+            parcel_limit: parcel_bytes(film_bytes),
+            ledger: Mutex::new(Ledger::new(film)?),
+            scene,
+            program,
+            roster: Mutex::default(),
+            refusals: Mutex::default(),
+            uploads: Semaphore::new(UPLOADS),
+            own: Mutex::default(),
+            is_ending: AtomicBool::new(false),
+            busy: AtomicU64::new(0),
+            bytes_received: AtomicU64::new(0),
+            started: Instant::now(),
+            sink,
+        });
+        let tls = key.as_ref().map(tls::server).transpose()?.map(TlsAcceptor::from);
+        let is_open = tls.is_some();
+        let runtime = tokio::runtime::Builder::new_multi_thread()
+            // Two, so that what takes long for one slave does not keep another's report waiting.
+            .worker_threads(2)
+            // Each holds a film in memory while it adds it.
+            .max_blocking_threads(UPLOADS)
+            .thread_name("network")
+            .enable_all()
+            .build()
+            .map_err(NetError::Threads)?;
+        let listener = runtime.block_on(listen(is_open, port))?;
+        let address = listener.local_addr().map_err(|source| NetError::Listen { port, source })?;
+        let (end, ended) = oneshot::channel::<()>();
+        runtime.spawn(serve(listener, tls, Arc::clone(&shared), ended));
+        runtime.spawn(watch(Arc::clone(&shared)));
+        let page = page.map(|(at, picture)| show(&runtime, at, picture, &shared)).transpose()?;
+        let announcement = Announcement::start(address.port(), is_open)
+            .inspect_err(|error| {
+                let what = format!("slaves have to be told where the master is (-h): {error}");
+                shared.tell(Event::Trouble(what));
+            })
+            .ok();
+        Ok(Self { shared, address, page, announcement, end: Some(end), runtime: Some(runtime) })
+    }
+
+    /// Where it listens.
+    pub fn address(&self) -> SocketAddr {
+        self.address
+    }
+
+    /// Where the status page is.
+    pub fn page(&self) -> Option<SocketAddr> {
+        self.page
+    }
+
+    /// Tells what this process renders itself.
+    pub fn tell_own(&self, own: OwnStatus) {
+        *lock(&self.shared.own) = Some(own);
+    }
+
+    /// The record of the film as it stands.
+    pub fn record(&self) -> FilmRecord {
+        self.shared.ledger().record().clone()
+    }
+
+    /// Adds what was rendered in this process.
+    ///
+    /// # Errors
+    /// Where it does not belong to the film.
+    pub fn add(&self, seed: u64, film: &SavedFilm) -> Result<Receipt, Refusal> {
+        self.shared.ledger().take(seed, film)
+    }
+
+    /// A copy of the film to be saved, by [`saved`](Self::saved) if that succeeds.
+    pub fn copy(&self) -> SavedFilm {
+        self.shared.ledger().copy()
+    }
+
+    /// A copy is on the disk, with this record: slaves need not keep what is in it.
+    pub fn saved(&self, record: FilmRecord) {
+        self.shared.ledger().saved(record);
+    }
+
+    /// How things stand.
+    pub fn status(&self) -> Status {
+        Status::of(&self.shared)
+    }
+
+    /// Asks all slaves for the last of what they have, after which they leave.
+    pub fn begin_end(&self) {
+        self.shared.is_ending.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether nobody is there any more, and nothing on its way.
+    pub fn is_deserted(&self) -> bool {
+        self.shared.busy.load(Ordering::Relaxed) == 0 && self.shared.roster().present() == 0
+    }
+}
+
+impl Drop for Master {
+    fn drop(&mut self) {
+        self.close();
+    }
+}
+
+impl Master {
+    /// Ends all connections. From now on no slave is told that something was added to the film: a copy of it then has all
+    /// of which one ever was.
+    pub fn close(&mut self) {
+        self.announcement = None;
+        if let Some(end) = self.end.take() {
+            // The server may have ended by itself.
+            let _ = end.send(());
+        }
+        if let Some(runtime) = self.runtime.take() {
+            // Long enough for answers that are on their way.
+            runtime.shutdown_timeout(Duration::from_millis(500));
+        }
+    }
+}
+
+/// Listens at all addresses if connections have to prove a key, else at those that only this machine can reach.
+async fn listen(is_open: bool, port: u16) -> Result<TcpListener, NetError> {
+    if is_open {
+        // Both families where the system has both.
+        if let Ok(listener) = TcpListener::bind((Ipv6Addr::UNSPECIFIED, port)).await
+            && cfg!(unix)
+        {
+            return Ok(listener);
+        }
+    }
+    let address = if is_open { Ipv4Addr::UNSPECIFIED } else { Ipv4Addr::LOCALHOST };
+    TcpListener::bind((address, port)).await.map_err(|source| NetError::Listen { port, source })
+}
+
+/// Serves until the end.
+async fn serve(
+    listener: TcpListener,
+    tls: Option<TlsAcceptor>,
+    shared: Arc<Shared>,
+    ended: oneshot::Receiver<()>,
+) {
+    /// Uploads in flight for each connection: what a gigabit network takes in the time that an answer needs across a
+    /// house, and no more than so many connections may hold together.
+    const WINDOW: u32 = 1 << 20;
+    let connections = listen::accept(listener, tls, Arc::clone(&shared));
+    let farm = FarmServer::new(service::Service::new(Arc::clone(&shared)))
+        .max_decoding_message_size(MESSAGE)
+        .max_encoding_message_size(MESSAGE);
+    let served = Server::builder()
+        .http2_keepalive_interval(Some(KEEP_ALIVE))
+        .http2_keepalive_timeout(Some(SILENCE))
+        .max_concurrent_streams(CALLS)
+        .concurrency_limit_per_connection(CALLS as usize)
+        .initial_stream_window_size(WINDOW)
+        .initial_connection_window_size(2 * WINDOW)
+        .http2_max_header_list_size(16 << 10)
+        .add_service(farm)
+        .serve_with_incoming_shutdown(ReceiverStream::new(connections), async {
+            drop(ended.await);
+        })
+        .await;
+    if let Err(error) = served {
+        shared.tell(Event::Trouble(format!("the network server has ended: {error}")));
+    }
+}
+
+/// Begins to show how things stand; where.
+fn show(
+    runtime: &Runtime,
+    address: SocketAddr,
+    picture: PathBuf,
+    shared: &Arc<Shared>,
+) -> Result<SocketAddr, NetError> {
+    let failed = |source| NetError::Page { address, source };
+    let listener = runtime.block_on(page::listen(address)).map_err(failed)?;
+    let address = listener.local_addr().map_err(failed)?;
+    let (asked, told) = (Arc::clone(shared), Arc::clone(shared));
+    let view = View { status: Arc::new(move || Status::of(&asked)), picture };
+    runtime.spawn(async move {
+        if let Err(error) = page::serve(listener, view).await {
+            told.tell(Event::Trouble(format!("the status page has ended: {error}")));
+        }
+    });
+    Ok(address)
+}
+
+/// Looks now and then who has been silent for too long.
+async fn watch(shared: Arc<Shared>) {
+    let mut ticks = tokio::time::interval(Duration::from_secs(1));
+    loop {
+        ticks.tick().await;
+        let lost = shared.roster().expire(Instant::now());
+        for slave in lost {
+            shared.tell(Event::Lost { slave: slave.name, peer: slave.peer });
+        }
+    }
+}

@@ -1,0 +1,340 @@
+//! Who takes part, and who was turned away.
+
+use crate::limits::{NAME, SILENCE, SLAVES};
+use std::collections::HashMap;
+use std::net::{IpAddr, SocketAddr};
+use std::time::{Duration, Instant};
+
+/// Names a slave: random bytes that it has chosen.
+pub type SlaveId = [u8; 16];
+
+/// Whether a slave is there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Presence {
+    /// It loads the scene.
+    Loading,
+    /// It renders.
+    Rendering,
+    /// It has said good-bye.
+    Left,
+    /// It is gone without good-bye.
+    Lost,
+}
+
+impl Presence {
+    /// Whether it takes part.
+    pub fn is_there(self) -> bool {
+        matches!(self, Self::Loading | Self::Rendering)
+    }
+
+    /// In a word.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Loading => "loading",
+            Self::Rendering => "rendering",
+            Self::Left => "left",
+            Self::Lost => "lost",
+        }
+    }
+}
+
+/// What is known of a slave.
+#[derive(Clone, Debug)]
+pub struct Slave {
+    /// Its machine, as people call it.
+    pub name: String,
+    /// Where it calls from.
+    pub peer: SocketAddr,
+    /// The random sequence that it renders.
+    pub seed: u64,
+    /// Threads that render there.
+    pub threads: u32,
+    /// Whether it is there.
+    pub presence: Presence,
+    /// When it came first.
+    pub since: Instant,
+    /// When it was heard of last.
+    pub heard: Instant,
+    /// Samples of its that were added to the film.
+    pub samples: u64,
+    /// By its own account.
+    pub samples_per_second: f64,
+    /// Uploads that were added.
+    pub uploads: u64,
+    /// When the last of them came.
+    pub last_upload: Option<Instant>,
+    /// Uploads that were refused or broke off.
+    pub errors: u64,
+    /// Why the last of these did.
+    pub last_error: Option<String>,
+}
+
+/// All slaves.
+#[derive(Debug, Default)]
+pub struct Roster {
+    slaves: HashMap<SlaveId, Slave>,
+}
+
+/// A slave that introduces itself.
+#[derive(Clone, Copy, Debug)]
+pub struct Introduction<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// Where from.
+    pub peer: SocketAddr,
+    /// The seed it has chosen.
+    pub seed: u64,
+    /// Its threads.
+    pub threads: u32,
+}
+
+impl Roster {
+    /// A slave is there, for the first time or again.
+    ///
+    /// # Errors
+    /// Why it cannot be.
+    pub fn join(&mut self, id: SlaveId, new: Introduction, now: Instant) -> Result<&Slave, String> {
+        let Introduction { name, peer, seed, threads } = new;
+        let has_seed = |(other, slave): (&SlaveId, &Slave)| {
+            *other != id && slave.seed == seed && slave.presence.is_there()
+        };
+        if let Some((_, other)) = self.slaves.iter().find(|slave| has_seed((slave.0, slave.1))) {
+            return Err(format!(
+                "{} ({}) renders with seed {seed} already, and the same samples would come twice; give each slave \
+                 another -seed, or none",
+                other.name, other.peer
+            ));
+        }
+        if self.slaves.get(&id).is_some_and(|slave| slave.seed != seed) {
+            return Err("a slave has one seed".to_owned());
+        }
+        if self.slaves.len() >= SLAVES && !self.slaves.contains_key(&id) {
+            self.forget_one()?;
+        }
+        let slave = self.slaves.entry(id).or_insert_with(|| Slave {
+            name: String::new(),
+            peer,
+            seed,
+            threads,
+            presence: Presence::Loading,
+            since: now,
+            heard: now,
+            samples: 0,
+            samples_per_second: 0.0,
+            uploads: 0,
+            last_upload: None,
+            errors: 0,
+            last_error: None,
+        });
+        slave.name = shown(name);
+        (slave.peer, slave.threads, slave.presence, slave.heard) = (peer, threads, Presence::Loading, now);
+        Ok(slave)
+    }
+
+    /// Forgets whoever has been gone for longest.
+    fn forget_one(&mut self) -> Result<(), String> {
+        let gone = self.slaves.iter().filter(|(_, slave)| !slave.presence.is_there());
+        let oldest = gone.min_by_key(|(_, slave)| slave.heard).map(|(id, _)| *id);
+        let oldest = oldest.ok_or_else(|| format!("there are {SLAVES} slaves already"))?;
+        self.slaves.remove(&oldest);
+        Ok(())
+    }
+
+    /// A slave that is there, of which something is heard just now.
+    pub fn heard(&mut self, id: &SlaveId, now: Instant) -> Option<&mut Slave> {
+        let slave = self.slaves.get_mut(id).filter(|slave| slave.presence.is_there())?;
+        slave.heard = now;
+        Some(slave)
+    }
+
+    /// A slave says good-bye.
+    pub fn leave(&mut self, id: &SlaveId) -> Option<&Slave> {
+        let slave = self.slaves.get_mut(id).filter(|slave| slave.presence.is_there())?;
+        (slave.presence, slave.samples_per_second) = (Presence::Left, 0.0);
+        Some(slave)
+    }
+
+    /// Whether a slave has been there.
+    pub fn knows(&self, id: &SlaveId) -> bool {
+        self.slaves.contains_key(id)
+    }
+
+    /// The connection from an address has ended: the name of the slave that is gone by that, if one is.
+    pub fn disconnected(&mut self, peer: SocketAddr) -> Option<String> {
+        let slave = self.slaves.values_mut().find(|slave| slave.peer == peer && slave.presence.is_there())?;
+        (slave.presence, slave.samples_per_second) = (Presence::Lost, 0.0);
+        Some(slave.name.clone())
+    }
+
+    /// Takes those for gone that have been silent for too long, and tells who they are.
+    pub fn expire(&mut self, now: Instant) -> Vec<Slave> {
+        let mut lost = vec![];
+        for slave in self.slaves.values_mut() {
+            if slave.presence.is_there() && now.saturating_duration_since(slave.heard) > SILENCE {
+                (slave.presence, slave.samples_per_second) = (Presence::Lost, 0.0);
+                lost.push(slave.clone());
+            }
+        }
+        lost
+    }
+
+    /// All that are known, in the order in which they came.
+    pub fn all(&self) -> Vec<Slave> {
+        let mut all: Vec<Slave> = self.slaves.values().cloned().collect();
+        all.sort_by(|a, b| (a.since, &a.name, a.peer).cmp(&(b.since, &b.name, b.peer)));
+        all
+    }
+
+    /// How many are there.
+    pub fn present(&self) -> usize {
+        self.slaves.values().filter(|slave| slave.presence.is_there()).count()
+    }
+
+    /// What those that are there render, by their own account.
+    pub fn samples_per_second(&self) -> f64 {
+        self.slaves.values().map(|slave| slave.samples_per_second).sum()
+    }
+}
+
+/// A name without what a terminal or a page could take for something else, and not too long.
+fn shown(name: &str) -> String {
+    let plain = |c: char| if c.is_alphanumeric() || " .-_()".contains(c) { c } else { '_' };
+    let name: String = name.chars().take(NAME).map(plain).collect();
+    if name.trim().is_empty() { "a slave".to_owned() } else { name }
+}
+
+/// Counts refusals by address, so that whoever knocks all day does not fill the log.
+#[derive(Debug, Default)]
+pub struct Refusals {
+    by_address: HashMap<IpAddr, Told>,
+    total: u64,
+}
+
+#[derive(Debug)]
+struct Told {
+    /// Refusals since they were last told of.
+    untold: u64,
+    /// When the next is told at the earliest.
+    next: Instant,
+    /// The time between the last two.
+    pause: Duration,
+}
+
+/// The longest time for which refusals of an address are passed over.
+const LONGEST_PAUSE: Duration = Duration::from_mins(10);
+/// Refusals of an address are all told as long as they are this far apart.
+const SHORTEST_PAUSE: Duration = Duration::from_secs(1);
+/// Addresses that are remembered.
+const ADDRESSES: usize = 1024;
+
+impl Refusals {
+    /// Counts one; if it is to be told, how many were not before it.
+    pub fn add(&mut self, peer: IpAddr, now: Instant) -> Option<u64> {
+        self.total += 1;
+        if self.by_address.len() >= ADDRESSES && !self.by_address.contains_key(&peer) {
+            self.by_address.clear();
+        }
+        let told =
+            self.by_address.entry(peer).or_insert(Told { untold: 0, next: now, pause: SHORTEST_PAUSE });
+        if now < told.next {
+            told.untold += 1;
+            return None;
+        }
+        // Who has been quiet for long starts anew.
+        let is_quiet = now.saturating_duration_since(told.next) > told.pause;
+        told.pause = if is_quiet { SHORTEST_PAUSE } else { (told.pause * 2).min(LONGEST_PAUSE) };
+        told.next = now + told.pause;
+        Some(std::mem::take(&mut told.untold))
+    }
+
+    /// All of them.
+    pub fn total(&self) -> u64 {
+        self.total
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn peer(n: u8) -> SocketAddr {
+        ([10, 0, 0, n], 1234).into()
+    }
+
+    fn introduction(n: u8, seed: u64) -> Introduction<'static> {
+        Introduction { name: "box", peer: peer(n), seed, threads: 2 }
+    }
+
+    #[test]
+    fn a_seed_is_one_slaves_as_long_as_it_is_there() {
+        let (mut roster, now) = (Roster::default(), Instant::now());
+        assert!(roster.join([1; 16], introduction(1, 7), now).is_ok());
+        let error = roster.join([2; 16], introduction(2, 7), now).unwrap_err();
+        assert!(error.contains("box (10.0.0.1:1234) renders with seed 7"), "{error}");
+        assert!(roster.join([1; 16], introduction(3, 7), now).is_ok(), "it may come again, from elsewhere");
+        assert!(roster.join([1; 16], introduction(1, 8), now).is_err());
+        roster.leave(&[1; 16]);
+        assert!(roster.join([2; 16], introduction(2, 7), now).is_ok());
+        assert_eq!(roster.present(), 1);
+        assert!(roster.heard(&[1; 16], now).is_none(), "who has left must join again");
+    }
+
+    #[test]
+    fn silence_is_taken_for_absence_once() {
+        let (mut roster, now) = (Roster::default(), Instant::now());
+        roster.join([1; 16], introduction(1, 1), now).unwrap();
+        roster.join([2; 16], introduction(2, 2), now).unwrap();
+        let later = now + SILENCE;
+        roster.heard(&[2; 16], later).unwrap();
+        assert!(roster.expire(later).is_empty());
+        let lost = roster.expire(later + Duration::from_secs(1));
+        assert_eq!(lost.iter().map(|slave| slave.peer).collect::<Vec<_>>(), [peer(1)]);
+        assert!(roster.expire(later + Duration::from_secs(2)).is_empty());
+    }
+
+    #[test]
+    fn a_slave_goes_with_its_connection_unless_it_has_another() {
+        let (mut roster, now) = (Roster::default(), Instant::now());
+        roster.join([1; 16], introduction(1, 1), now).unwrap();
+        roster.join([1; 16], introduction(2, 1), now).unwrap();
+        assert_eq!(roster.disconnected(peer(1)), None);
+        assert_eq!(roster.disconnected(peer(2)).as_deref(), Some("box"));
+        assert_eq!((roster.disconnected(peer(2)), roster.present()), (None, 0));
+    }
+
+    #[test]
+    fn those_that_are_gone_make_room() {
+        let (mut roster, now) = (Roster::default(), Instant::now());
+        let id = |n: usize| {
+            let mut id = [0; 16];
+            id[..8].copy_from_slice(&n.to_le_bytes());
+            id
+        };
+        for n in 0..SLAVES {
+            roster.join(id(n), introduction(1, n as u64), now + Duration::from_millis(n as u64)).unwrap();
+        }
+        assert!(roster.join(id(SLAVES), introduction(2, SLAVES as u64), now).is_err());
+        roster.leave(&id(17));
+        assert!(roster.join(id(SLAVES), introduction(2, SLAVES as u64), now).is_ok());
+        assert_eq!(roster.all().len(), SLAVES);
+    }
+
+    #[test]
+    fn names_cannot_write_over_the_screen() {
+        assert_eq!(shown("render-3.local (night)"), "render-3.local (night)");
+        assert_eq!(shown("\x1b[2J<b>\n"), "__2J_b__");
+        assert_eq!(shown(&"x".repeat(1000)).len(), NAME);
+        assert_eq!(shown(" "), "a slave");
+    }
+
+    #[test]
+    fn who_knocks_all_day_is_told_of_now_and_then() {
+        let (mut refusals, start) = (Refusals::default(), Instant::now());
+        let told = (0..36_000)
+            .filter_map(|n| refusals.add(peer(1).ip(), start + Duration::from_millis(100) * n))
+            .collect::<Vec<_>>();
+        assert!(told.len() < 20, "{}", told.len());
+        assert!(told.iter().sum::<u64>() + told.len() as u64 <= 36_000 && refusals.total() == 36_000);
+        assert_eq!(refusals.add(peer(2).ip(), start), Some(0), "others are told of all the same");
+    }
+}

@@ -1,0 +1,303 @@
+//! The calls that a master answers.
+
+use super::listen::Peer;
+use super::roster::{Introduction, Presence, SlaveId};
+use super::{Shared, lock};
+use crate::event::Event;
+use crate::ledger::{Receipt, Refusal, run_of};
+use crate::limits::{PIECE, PROTOCOL, REPORTS, SILENCE};
+use crate::proto::farm_server::Farm;
+use crate::proto::report_reply::Order;
+use crate::proto::report_request::State;
+use crate::proto::upload_part::Part;
+use crate::proto::{
+    JoinReply, JoinRequest, LeaveReply, LeaveRequest, Piece, ReportReply, ReportRequest, SceneRequest,
+    Setting, UploadPart, UploadReply, UploadStart,
+};
+use bytes::Bytes;
+use indigo_film::igi::{parcel_size, read_parcel};
+use indigo_film::{Run, SavedFilm};
+use indigo_render::pool::with_jobs;
+use std::net::{Ipv4Addr, SocketAddr};
+use std::pin::Pin;
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::time::Instant;
+use tokio::task::spawn_blocking;
+use tokio::time::timeout;
+use tokio_stream::{Stream, iter};
+use tonic::{Request, Response, Status, Streaming};
+
+/// Answers calls.
+pub struct Service {
+    shared: Arc<Shared>,
+}
+
+impl Service {
+    /// For a master.
+    pub fn new(shared: Arc<Shared>) -> Self {
+        Self { shared }
+    }
+
+    /// Turns a caller away, and tells of it.
+    fn refuse(&self, peer: SocketAddr, status: Status) -> Status {
+        self.shared.refused(peer, status.message());
+        status
+    }
+}
+
+/// The caller's address.
+fn peer_of<T>(request: &Request<T>) -> SocketAddr {
+    request.extensions().get::<Peer>().map_or((Ipv4Addr::UNSPECIFIED, 0).into(), |peer| peer.0)
+}
+
+/// A slave's name for itself.
+fn slave_id(bytes: &[u8]) -> Result<SlaveId, Status> {
+    bytes.try_into().map_err(|_| Status::invalid_argument("a slave is named by 16 bytes"))
+}
+
+/// What somebody is told whom the master does not know, since it was started anew or has heard nothing for long.
+fn unknown() -> Status {
+    Status::not_found("this slave has not joined")
+}
+
+/// What somebody is told when a thread of the master's has failed.
+fn failed(error: impl std::fmt::Display) -> Status {
+    Status::internal(error.to_string())
+}
+
+/// What an upload holds.
+struct Upload {
+    samples: u64,
+    run: Run,
+}
+
+/// Counts an upload as long as it is under way.
+struct Busy<'a>(&'a Shared);
+
+impl<'a> Busy<'a> {
+    fn new(shared: &'a Shared) -> Self {
+        shared.busy.fetch_add(1, Ordering::Relaxed);
+        Self(shared)
+    }
+}
+
+impl Drop for Busy<'_> {
+    fn drop(&mut self) {
+        self.0.busy.fetch_sub(1, Ordering::Relaxed);
+    }
+}
+
+#[tonic::async_trait]
+impl Farm for Service {
+    type FetchSceneStream = Pin<Box<dyn Stream<Item = Result<Piece, Status>> + Send>>;
+
+    async fn join(&self, request: Request<JoinRequest>) -> Result<Response<JoinReply>, Status> {
+        let peer = peer_of(&request);
+        let JoinRequest { protocol, program, slave, seed, name, threads } = request.into_inner();
+        let shared = &self.shared;
+        if protocol != PROTOCOL || program != shared.program {
+            let ours = &shared.program;
+            let what = format!(
+                "the master is \"{ours}\" (protocol {PROTOCOL}), and the slave is \"{}\" (protocol {protocol}): \
+                 samples of different programs do not mix, so the same version is needed",
+                program.chars().take(100).collect::<String>()
+            );
+            return Err(self.refuse(peer, Status::failed_precondition(what)));
+        }
+        let id = slave_id(&slave).map_err(|status| self.refuse(peer, status))?;
+        // Who has something left to send may come back for that.
+        if shared.is_ending.load(Ordering::Relaxed) && !shared.roster().knows(&id) {
+            return Err(Status::unavailable("the render is about to end"));
+        }
+        let introduction = Introduction { name: &name, peer, seed, threads };
+        let joined = shared.roster().join(id, introduction, Instant::now()).map(|slave| slave.name.clone());
+        let slave = joined.map_err(|reason| self.refuse(peer, Status::already_exists(reason)))?;
+        let (merged_end, durable_end) = {
+            let shared = Arc::clone(shared);
+            spawn_blocking(move || shared.ledger().ends(seed)).await.map_err(failed)?
+        };
+        shared.tell(Event::Joined { slave, peer, threads });
+        let scene = &shared.scene;
+        let setting = |option: &str, name: &str, value: &str| Setting {
+            option: option.to_owned(),
+            name: name.to_owned(),
+            value: value.to_owned(),
+        };
+        Ok(Response::new(JoinReply {
+            scene: scene.name.clone(),
+            pack_hash: Bytes::copy_from_slice(&shared.pack_hash),
+            pack_bytes: scene.pack.len() as u64,
+            settings_file: scene.settings_file.clone(),
+            overrides: scene
+                .overrides
+                .iter()
+                .map(|[option, name, value]| setting(option, name, value))
+                .collect(),
+            scene_hash: Bytes::copy_from_slice(&scene.identity.hash),
+            identity: scene.identity.settings.iter().map(|(name, value)| setting("", name, value)).collect(),
+            upload_period_s: scene.upload_period.as_secs_f64(),
+            report_period_s: REPORTS.as_secs_f64(),
+            merged_end,
+            durable_end,
+        }))
+    }
+
+    async fn fetch_scene(
+        &self,
+        request: Request<SceneRequest>,
+    ) -> Result<Response<Self::FetchSceneStream>, Status> {
+        let peer = peer_of(&request);
+        let SceneRequest { slave, pack_hash } = request.into_inner();
+        let id = slave_id(&slave).map_err(|status| self.refuse(peer, status))?;
+        self.shared.roster().heard(&id, Instant::now()).ok_or_else(unknown)?;
+        if pack_hash != self.shared.pack_hash[..] {
+            return Err(self.refuse(peer, Status::not_found("the master has another scene")));
+        }
+        let pack = self.shared.scene.pack.clone();
+        let shared = Arc::clone(&self.shared);
+        let pieces = (0..pack.len()).step_by(PIECE).map(move |from| {
+            // Fetching is a sign of life.
+            shared.roster().heard(&id, Instant::now());
+            Ok(Piece { data: pack.slice(from..(from + PIECE).min(pack.len())) })
+        });
+        Ok(Response::new(Box::pin(iter(pieces))))
+    }
+
+    async fn upload(&self, request: Request<Streaming<UploadPart>>) -> Result<Response<UploadReply>, Status> {
+        let peer = peer_of(&request);
+        let mut stream = request.into_inner();
+        let Some(Part::Start(start)) = next(&mut stream).await? else {
+            return Err(self.refuse(peer, Status::invalid_argument("an upload begins with its length")));
+        };
+        let id = slave_id(&start.slave).map_err(|status| self.refuse(peer, status))?;
+        let seed = self.shared.roster().heard(&id, Instant::now()).ok_or_else(unknown)?.seed;
+        let result = self.receive(id, seed, &start, stream).await;
+        let mut roster = self.shared.roster();
+        let slave = roster.heard(&id, Instant::now());
+        match result {
+            Ok((Upload { samples, run }, receipt)) => {
+                let name = slave.map_or_else(String::new, |slave| {
+                    slave.samples += if receipt.is_repeated { 0 } else { samples };
+                    slave.uploads += 1;
+                    slave.last_upload = Some(slave.heard);
+                    slave.name.clone()
+                });
+                drop(roster);
+                self.shared.tell(if receipt.is_repeated {
+                    Event::Repeated { slave: name }
+                } else {
+                    Event::Added { slave: name, samples, bytes: start.bytes, run, missing: receipt.missing }
+                });
+                let Receipt { merged_end, durable_end, generation, .. } = receipt;
+                Ok(Response::new(UploadReply { merged_end, durable_end, generation }))
+            }
+            Err(status) => {
+                if let Some(slave) = slave {
+                    slave.errors += 1;
+                    slave.last_error = Some(status.message().to_owned());
+                }
+                drop(roster);
+                Err(self.refuse(peer, status))
+            }
+        }
+    }
+
+    async fn report(&self, request: Request<ReportRequest>) -> Result<Response<ReportReply>, Status> {
+        let report = request.into_inner();
+        let id = slave_id(&report.slave)?;
+        let seed = {
+            let mut roster = self.shared.roster();
+            let slave = roster.heard(&id, Instant::now()).ok_or_else(unknown)?;
+            slave.presence = match report.state() {
+                State::Loading => Presence::Loading,
+                State::Rendering => Presence::Rendering,
+            };
+            let rate = report.samples_per_second;
+            slave.samples_per_second = if rate.is_finite() { rate.max(0.0) } else { 0.0 };
+            slave.seed
+        };
+        let shared = Arc::clone(&self.shared);
+        let (_, durable_end) = spawn_blocking(move || shared.ledger().ends(seed)).await.map_err(failed)?;
+        let is_ending = self.shared.is_ending.load(Ordering::Relaxed);
+        let order = if is_ending { Order::Finish } else { Order::GoOn };
+        Ok(Response::new(ReportReply { durable_end, order: order.into() }))
+    }
+
+    async fn leave(&self, request: Request<LeaveRequest>) -> Result<Response<LeaveReply>, Status> {
+        let id = slave_id(&request.into_inner().slave)?;
+        let left = self.shared.roster().leave(&id).map(|slave| (slave.name.clone(), slave.peer));
+        if let Some((slave, peer)) = left {
+            self.shared.tell(Event::Left { slave, peer });
+        }
+        Ok(Response::new(LeaveReply {}))
+    }
+}
+
+impl Service {
+    /// Receives a parcel and adds it to the film; what it was, and what became of it.
+    async fn receive(
+        &self,
+        id: SlaveId,
+        seed: u64,
+        start: &UploadStart,
+        mut stream: Streaming<UploadPart>,
+    ) -> Result<(Upload, Receipt), Status> {
+        let shared = &self.shared;
+        let _busy = Busy::new(shared);
+        if start.bytes > shared.parcel_limit {
+            let limit = shared.parcel_limit;
+            let what = format!("an upload of {} bytes is more than a film takes, {limit}", start.bytes);
+            return Err(Status::resource_exhausted(what));
+        }
+        let _turn = shared.uploads.acquire().await.map_err(failed)?;
+        let mut parcel = Vec::with_capacity(start.bytes as usize);
+        while let Some(part) = next(&mut stream).await? {
+            let Part::Data(data) = part else {
+                return Err(Status::invalid_argument("an upload has one beginning"));
+            };
+            if (parcel.len() + data.len()) as u64 > start.bytes {
+                return Err(Status::resource_exhausted("an upload is longer than it says"));
+            }
+            parcel.extend_from_slice(&data);
+            shared.bytes_received.fetch_add(data.len() as u64, Ordering::Relaxed);
+            shared.roster().heard(&id, Instant::now());
+        }
+        if (parcel.len() as u64) < start.bytes {
+            return Err(Status::data_loss("an upload is shorter than it says"));
+        }
+        let shared = Arc::clone(shared);
+        spawn_blocking(move || add(&shared, seed, &parcel)).await.map_err(failed)?
+    }
+}
+
+/// Adds a parcel to the film.
+fn add(shared: &Shared, seed: u64, parcel: &[u8]) -> Result<(Upload, Receipt), Status> {
+    let damaged = |error| Status::invalid_argument(format!("an upload is damaged: {error}"));
+    let (size, expected) = (parcel_size(parcel).map_err(damaged)?, lock(&shared.ledger).size());
+    if size != expected {
+        return Err(Status::invalid_argument(format!("an upload is {size}, and the film is {expected}")));
+    }
+    // A thread of its own and no more: the others may render.
+    let film: SavedFilm = with_jobs(1, || read_parcel(parcel)).map_err(damaged)?;
+    let receipt = shared
+        .ledger()
+        .take(seed, &film)
+        .map_err(|refusal: Refusal| Status::invalid_argument(format!("an upload is refused: {refusal}")))?;
+    let samples = film.record.as_ref().map_or(0, |record| record.samples);
+    // Without a run it would have been refused.
+    Ok((Upload { samples, run: run_of(&film).unwrap_or(Run { seed, first: 0, end: 0 }) }, receipt))
+}
+
+/// The next part of an upload, within a time.
+async fn next(stream: &mut Streaming<UploadPart>) -> Result<Option<Part>, Status> {
+    match timeout(SILENCE, stream.message()).await {
+        Ok(Ok(Some(UploadPart { part: Some(part) }))) => Ok(Some(part)),
+        Ok(Ok(Some(UploadPart { part: None }))) => {
+            Err(Status::invalid_argument("an upload has an empty part"))
+        }
+        Ok(Ok(None)) => Ok(None),
+        Ok(Err(status)) => Err(status),
+        Err(_) => Err(Status::deadline_exceeded("an upload has stopped in its midst")),
+    }
+}

@@ -1,0 +1,125 @@
+"use strict";
+
+// Seconds between two looks at how things stand.
+const PERIOD = 2;
+
+const by = (id) => document.getElementById(id);
+
+function number(value) {
+  if (value === null) return "–";
+  for (const [size, unit] of [[1e12, "T"], [1e9, "G"], [1e6, "M"], [1e3, "k"]]) {
+    if (value >= size) return (value / size).toPrecision(3) + " " + unit;
+  }
+  return value >= 100 || Number.isInteger(value) ? value.toFixed(0) : value.toFixed(1);
+}
+
+function bytes(value) {
+  for (const [size, unit] of [[2 ** 40, "TiB"], [2 ** 30, "GiB"], [2 ** 20, "MiB"], [2 ** 10, "KiB"]]) {
+    if (value >= size) return (value / size).toPrecision(3) + " " + unit;
+  }
+  return value + " B";
+}
+
+function time(seconds) {
+  const s = Math.floor(seconds);
+  const two = (n) => String(n).padStart(2, "0");
+  const clock = two(Math.floor(s / 60) % 60) + ":" + two(s % 60);
+  if (s < 3600) return clock;
+  const hours = Math.floor(s / 3600);
+  return hours < 48 ? hours + ":" + clock : Math.floor(hours / 24) + " d " + (hours % 24) + " h";
+}
+
+function ago(seconds) {
+  if (seconds === null) return "–";
+  return seconds < 60 ? Math.round(seconds) + " s ago" : time(seconds) + " ago";
+}
+
+function cell(row, text, kind) {
+  const td = row.insertCell();
+  td.textContent = text;
+  if (kind) td.className = kind;
+  return td;
+}
+
+function showSlave(body, slave, most) {
+  const row = body.insertRow();
+  const isThere = slave.state === "loading" || slave.state === "rendering";
+  row.className = isThere ? slave.state : "gone " + slave.state;
+  const name = cell(row, slave.name);
+  const address = document.createElement("span");
+  address.className = "address";
+  address.textContent = slave.address;
+  name.append(address);
+  cell(row, slave.state, "state");
+  cell(row, slave.threads, "number");
+  const share = cell(row, "", "share");
+  if (isThere) {
+    const box = document.createElement("div");
+    const bar = document.createElement("progress");
+    bar.max = Math.max(most, 1e-9);
+    bar.value = slave.samples_per_second;
+    bar.setAttribute("aria-hidden", "true");
+    const text = document.createElement("span");
+    text.textContent = number(slave.samples_per_second);
+    box.append(bar, text);
+    share.append(box);
+  }
+  cell(row, number(slave.samples), "number");
+  cell(row, ago(slave.last_upload_s), "number");
+  const errors = cell(row, slave.errors, slave.errors ? "number errors some" : "number errors");
+  if (slave.last_error) errors.title = slave.last_error;
+}
+
+function show(status) {
+  by("scene").textContent = status.scene;
+  document.title = number(status.samples_per_pixel) + " spp – " + status.scene;
+  by("spp").textContent = number(status.samples_per_pixel);
+  by("rate").textContent = number(status.samples_per_second);
+  by("machines").textContent = status.present + (status.own ? 1 : 0);
+  by("elapsed").textContent = time(status.elapsed_s);
+  by("rendered").textContent = time(status.rendered_s);
+  by("received").textContent = bytes(status.bytes_received);
+  by("refused").textContent = status.refused;
+  const body = document.createElement("tbody");
+  body.id = "slaves";
+  const most = Math.max(0, ...status.slaves.map((slave) => slave.samples_per_second || 0));
+  const gone = (slave) => slave.state === "left" || slave.state === "lost";
+  for (const slave of status.slaves.filter((s) => !gone(s))) showSlave(body, slave, most);
+  for (const slave of status.slaves.filter(gone).slice(-20)) showSlave(body, slave, most);
+  by("slaves").replaceWith(body);
+  by("nobody").hidden = status.slaves.length > 0;
+  showPicture(status);
+}
+
+// The next picture takes the last one's place when it is there as a whole.
+let shown = 0;
+function showPicture(status) {
+  if (!status.picture || status.picture === shown) return;
+  const version = status.picture;
+  const next = new Image();
+  next.onload = () => {
+    shown = version;
+    const picture = by("picture");
+    picture.src = next.src;
+    picture.hidden = false;
+    by("caption").textContent =
+      status.width + " × " + status.height + ", saved at " + new Date(version).toLocaleTimeString();
+  };
+  next.src = "/picture.png?" + version;
+}
+
+async function look() {
+  const state = by("state");
+  try {
+    const answer = await fetch("/status.json", { signal: AbortSignal.timeout(5000) });
+    show(await answer.json());
+    state.textContent = "live";
+    state.className = "";
+  } catch {
+    state.textContent = "the master does not answer";
+    state.className = "away";
+  }
+  setTimeout(look, PERIOD * 1000);
+}
+
+look();

@@ -1,0 +1,153 @@
+//! Reaching a master.
+
+use crate::key::Key;
+use crate::limits::{HANDSHAKE, KEEP_ALIVE, MESSAGE, PORT, SILENCE};
+use crate::proto::farm_client::FarmClient;
+use crate::watched::Watched;
+use crate::{NetError, tls};
+use hyper_util::rt::TokioIo;
+use rustls::ClientConfig;
+use rustls::pki_types::ServerName;
+use std::io;
+use std::net::{IpAddr, SocketAddr};
+use std::sync::{Arc, Mutex, PoisonError};
+use tokio::io::{AsyncRead, AsyncWrite};
+use tokio::net::{TcpSocket, lookup_host};
+use tokio::time::timeout;
+use tokio_rustls::TlsConnector;
+use tonic::transport::{Channel, Endpoint};
+
+/// Bytes that may wait in the system to be sent: on a slow network reports would else stand behind minutes of an upload.
+const SEND_BUFFER: u32 = 256 << 10;
+
+/// How masters are reached.
+#[derive(Clone)]
+pub struct Connector {
+    tls: Option<Arc<ClientConfig>>,
+}
+
+/// Host and port of what a user gives; the port may be left out.
+pub fn host_and_port(given: &str) -> Option<(String, u16)> {
+    let (host, port) = match given.rsplit_once(':') {
+        // An address of IPv6 without a port is full of colons.
+        Some((host, port)) if !host.contains(':') || host.ends_with(']') => (host, port.parse().ok()?),
+        _ => (given, PORT),
+    };
+    let host = host.strip_prefix('[').and_then(|h| h.strip_suffix(']')).unwrap_or(host);
+    (!host.is_empty() && port > 0).then(|| (host.to_owned(), port))
+}
+
+impl Connector {
+    /// With the shared key, if there is one.
+    ///
+    /// # Errors
+    /// Where there is no encryption.
+    pub fn new(key: Option<&Key>) -> Result<Self, NetError> {
+        Ok(Self { tls: key.map(tls::client).transpose()? })
+    }
+
+    /// Connects to a master.
+    ///
+    /// # Errors
+    /// Why it is not reached, in words.
+    pub async fn connect(&self, host: &str, port: u16) -> Result<FarmClient<Channel>, String> {
+        let endpoint = Endpoint::from_static("http://indigo")
+            .connect_timeout(2 * HANDSHAKE)
+            .http2_keep_alive_interval(KEEP_ALIVE)
+            .keep_alive_timeout(SILENCE)
+            .keep_alive_while_idle(true)
+            .tcp_nodelay(true);
+        let (host, tls) = (host.to_owned(), self.tls.clone());
+        // What is behind a failure is told by the library in its own words only.
+        let why = Arc::new(Mutex::new(None));
+        let noted = Arc::clone(&why);
+        let connector = tower::service_fn(move |_| {
+            let (host, tls, noted) = (host.clone(), tls.clone(), Arc::clone(&noted));
+            async move {
+                let opened = timeout(HANDSHAKE, open(&host, port, tls)).await;
+                let opened = opened.unwrap_or_else(|_| Err(io::Error::other("it does not answer")));
+                opened.map(TokioIo::new).inspect_err(|error| {
+                    *noted.lock().unwrap_or_else(PoisonError::into_inner) = Some(error.to_string());
+                })
+            }
+        });
+        match endpoint.connect_with_connector(connector).await {
+            Ok(channel) => Ok(FarmClient::new(channel)
+                .max_decoding_message_size(MESSAGE)
+                .max_encoding_message_size(MESSAGE)),
+            Err(error) => {
+                let why = why.lock().unwrap_or_else(PoisonError::into_inner).take();
+                Err(why.unwrap_or_else(|| error.to_string()))
+            }
+        }
+    }
+}
+
+trait Stream: AsyncRead + AsyncWrite + Send + Unpin {}
+impl<T: AsyncRead + AsyncWrite + Send + Unpin> Stream for T {}
+
+async fn open(host: &str, port: u16, tls: Option<Arc<ClientConfig>>) -> io::Result<Box<dyn Stream>> {
+    let mut last = io::Error::other(format!("{host} has no address"));
+    for address in lookup_host((host, port)).await? {
+        if tls.is_none() && !is_local(address.ip()) {
+            last = io::Error::other(NetError::NotLocal(address.to_string()));
+            continue;
+        }
+        match open_address(address, tls.as_ref()).await {
+            Ok(stream) => return Ok(stream),
+            Err(error) => last = error,
+        }
+    }
+    Err(last)
+}
+
+/// Whether an address is this machine's own, which no other can listen to.
+fn is_local(address: IpAddr) -> bool {
+    address.to_canonical().is_loopback()
+}
+
+async fn open_address(address: SocketAddr, tls: Option<&Arc<ClientConfig>>) -> io::Result<Box<dyn Stream>> {
+    let socket = if address.is_ipv4() { TcpSocket::new_v4()? } else { TcpSocket::new_v6()? };
+    socket.set_send_buffer_size(SEND_BUFFER)?;
+    let tcp = socket.connect(address).await?;
+    tcp.set_nodelay(true)?;
+    let tcp = Watched::new(tcp, SILENCE);
+    let Some(config) = tls else { return Ok(Box::new(tcp)) };
+    let name = ServerName::try_from(tls::SERVER_NAME).map_err(io::Error::other)?;
+    let proved = TlsConnector::from(Arc::clone(config)).connect(name, tcp).await;
+    let stream = proved
+        .map_err(|error| io::Error::other(format!("it has not proved that it has the same key: {error}")))?;
+    Ok(Box::new(stream))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hosts_come_with_a_port_or_without() {
+        let of = |given: &str| host_and_port(given);
+        assert_eq!(of("lust:7778"), Some(("lust".into(), 7778)));
+        assert_eq!(of("lust"), Some(("lust".into(), PORT)));
+        assert_eq!(of("::1"), Some(("::1".into(), PORT)));
+        assert_eq!(of("[::1]:9"), Some(("::1".into(), 9)));
+        assert_eq!(of("[fe80::2]"), Some(("fe80::2".into(), PORT)));
+        for bad in ["", ":1", "lust:", "lust:x", "lust:0", "lust:70000", "[::1]:"] {
+            assert_eq!(of(bad), None, "{bad}");
+        }
+    }
+
+    #[test]
+    fn only_loopback_is_local() {
+        for (address, expected) in [
+            ("127.0.0.1", true),
+            ("127.1.2.3", true),
+            ("::1", true),
+            ("::ffff:127.0.0.1", true),
+            ("10.0.0.1", false),
+            ("0.0.0.0", false),
+        ] {
+            assert_eq!(is_local(address.parse().unwrap()), expected, "{address}");
+        }
+    }
+}
