@@ -3,7 +3,8 @@
 //! The first line has four numbers: the unit (1: electron volts, 2: micrometres, 3: reciprocal centimetres, 4:
 //! nanometres), start and end of the range, and how many steps it has. Then n and k follow in pairs, at equal steps of
 //! the unit. Blanks, commas and semicolons stand between numbers. Files count intervals or points: with N pairs, a
-//! count of N − 1 or of N is taken. Text behind the last pair is ignored.
+//! count of N − 1 or of N is taken. Text behind the last pair is ignored, and so is
+//! a byte order mark.
 
 use crate::error::FormatError;
 use crate::text::Text;
@@ -14,6 +15,9 @@ const EV_NM: f64 = 1_239.841_984;
 const LARGEST: f64 = 1e6;
 /// The wavelengths that are believed, in nm: from gamma rays to metres. Far inside what a number can tell apart.
 const RANGE_NM: std::ops::RangeInclusive<f64> = 1e-3..=1e9;
+
+/// What editors of some systems begin a text in UTF-8 with.
+const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
 
 /// Index of refraction n and extinction coefficient k by wavelength.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,7 +54,8 @@ impl ComplexIndex {
 /// For an unknown unit, a range that is empty or not positive, numbers that are not finite or absurdly large or
 /// negative, and a number of pairs that does not fit the first line.
 pub fn read(bytes: &[u8]) -> Result<ComplexIndex, FormatError> {
-    let mut text = Text::new(bytes, 0);
+    let mark = if bytes.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len() } else { 0 };
+    let mut text = Text::new(bytes, mark);
     let unit = text.offset();
     let to_nm = match next(&mut text, "a unit: 1 (eV), 2 (micrometres), 3 (1/cm) or 4 (nm)")? {
         1.0 => |e: f64| EV_NM / e,
@@ -136,6 +141,12 @@ mod tests {
             assert_eq!(index.at(399.0), [1.0, 10.0], "{text}");
             assert_eq!(index.at(900.0), [5.0, 50.0], "{text}");
         }
+    }
+
+    #[test]
+    fn a_byte_order_mark_is_no_number() {
+        let index = read("\u{feff}4 400 800 1\n1 10\n2 20".as_bytes()).unwrap();
+        assert_eq!(index.at(800.0), [2.0, 20.0]);
     }
 
     #[test]

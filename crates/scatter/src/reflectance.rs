@@ -42,7 +42,7 @@ impl Reflectance {
         }
         // tidy: load-time mathematics
         let rgb = colour.and_then(|field| node.opt_vec3(field)).map_or([0.0; 3], |v| v.value);
-        let linear = rgb.map(|v| v.max(0.0).powf(COLOUR_GAMMA).clamp(0.0, COLOUR_LIMIT));
+        let linear = rgb.map(|v| v.powf(COLOUR_GAMMA).min(COLOUR_LIMIT));
         Self::Spectrum(Spectrum::rgb_reflectance(linear))
     }
 

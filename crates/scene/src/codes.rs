@@ -39,6 +39,8 @@ indigo_decl::codes! {
     STANDS_IN = "W0320", "<material><name>a</name><coating><substrate_material_name>white</substrate_material_name></coating></material><sphere><center>0 0 0</center><radius>1</radius><material_name>a</material_name></sphere>";
     /// A scale or a profile of a material that the model does not emit by.
     IDLE_SCALE = "W0321", "(an `emission_scale` of a material that the model does not have)";
+    /// A map of exponents with some that are not above 0.
+    NO_EXPONENT = "W0322", "(an `exponent_map` of a picture with black texels)";
     /// A name that nothing defines.
     UNKNOWN_NAME = "E0301", "<sphere><center>0 0 0</center><radius>1</radius><material_name>whiet</material_name></sphere>";
     /// A file that cannot be had.

@@ -85,6 +85,14 @@ impl Texture {
         texels + 4 * self.table.len()
     }
 
+    /// Which share of the texels has a scalar of no more than `limit`. Goes through all of them.
+    pub fn share_not_above(&self, limit: Real) -> f64 {
+        let rows = 0..self.height;
+        let texels = rows.flat_map(|y| (0..self.width).map(move |x| (x, y)));
+        let below = texels.filter(|&(x, y)| self.texel(x, y).iter().sum::<Real>() <= 3.0 * limit).count();
+        below as f64 / (f64::from(self.width) * f64::from(self.height))
+    }
+
     /// Linear RGB at texture coordinates.
     ///
     /// (0, 0) is the lower left corner of the image, and coordinates wrap round. Texels stand at

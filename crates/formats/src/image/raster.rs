@@ -26,6 +26,9 @@ pub(super) fn name(format: ImageFormat) -> &'static str {
 
 pub(super) fn decode(format: ImageFormat, bytes: &[u8], most_bytes: u64) -> Result<Image, FormatError> {
     let complaint = |error: ::image::ImageError| decoder_error(name(format), &error);
+    if format == ImageFormat::Tiff {
+        tiff_samples::check(bytes)?;
+    }
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     let mut limits = Limits::default();
     // Sides are checked by us, who tell what they may be.
@@ -38,17 +41,13 @@ pub(super) fn decode(format: ImageFormat, bytes: &[u8], most_bytes: u64) -> Resu
     let stored_bits = decoder.original_color_type().bits_per_pixel();
     let besides = bytes_beside_a_texel(format, bytes, texel_bytes, stored_bits.into());
     check_memory(u64::from(width) * u64::from(height) * (texel_bytes + besides), most_bytes)?;
-    match format {
-        ImageFormat::Tiff => tiff_samples::check(bytes, decoder.color_type())?,
-        // The decoder makes grey of what is missing.
-        ImageFormat::Jpeg if !jpeg_frame::has_end(bytes) => {
-            return Err(FormatError::new(
-                Position::Byte(bytes.len()),
-                "a whole JPEG file, with the mark of its end",
-                "the end of the file",
-            ));
-        }
-        _ => {}
+    // The decoder makes grey of what is missing.
+    if format == ImageFormat::Jpeg && !jpeg_frame::has_end(bytes) {
+        return Err(FormatError::new(
+            Position::Byte(bytes.len()),
+            "a whole JPEG file, with the mark of its end",
+            "the end of the file",
+        ));
     }
     let picture = DynamicImage::from_decoder(decoder).map_err(complaint)?;
     let (channels, pixels) =

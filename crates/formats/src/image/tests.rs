@@ -149,6 +149,26 @@ fn samples_of_a_tiff_are_what_they_are_taken_for() {
     assert!(error.expected.contains("8 or 16 bits"), "{error}");
 }
 
+/// In the words of the format, whatever the decoder calls it.
+#[test]
+fn samples_of_a_tiff_that_are_not_read_are_named() {
+    use ::tiff::encoder::colortype::{RGB8, RGB32, RGB64Float};
+    let mut palette = tiff_of::<RGB8>(&[1; 6]);
+    // The tag of what the samples are, 262 of type 3, one value: from RGB (2) to a palette (3).
+    let entry = [6, 1, 3, 0, 1, 0, 0, 0, 2];
+    let at = palette.windows(entry.len()).position(|bytes| bytes == entry).unwrap();
+    palette[at + entry.len() - 1] = 3;
+    let doubles = tiff_of::<RGB64Float>(&[0.5; 6]);
+    for (file, found) in [
+        (palette, "colours from a palette"),
+        (doubles, "floating-point samples of 64 bits"),
+        (tiff_of::<RGB32>(&[7; 6]), "unsigned samples of 32 bits"),
+    ] {
+        let error = decode("a.tif", &file).unwrap_err();
+        assert!(error.found == found && error.expected.contains("TIFF of"), "{error}");
+    }
+}
+
 #[test]
 fn radiance_hdr_keeps_values_beyond_one() {
     let bright = ImageBuffer::from_pixel(16, 8, Rgb([64.0_f32, 2.0, 0.5]));

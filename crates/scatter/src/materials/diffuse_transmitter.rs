@@ -7,7 +7,7 @@ use super::fields::{
 use super::{MaterialContext, MaterialResources, SurfaceKind};
 use crate::reflectance::Reflectance;
 use crate::scatter::{Crossing, LocalSample, Scatter};
-use indigo_decl::{Block, Field, Group, Kind, Node, Presence};
+use indigo_decl::{Block, Field, Group, Kind, Node, Presence, Range};
 use indigo_math::warp::{INV_PI, cosine_hemisphere, cosine_hemisphere_pdf};
 use indigo_math::{Real, Vec2, Vec3};
 use indigo_spectrum::declare::SPECTRUM;
@@ -33,6 +33,7 @@ pub static BLOCK: Block = Block::new(
             "The fraction let through as red, green and blue as picked on a screen: each is raised to the \
              power 2.2 and then clamped to [0, 0.9]. Has no effect beside `albedo_spectrum`.",
         )
+        .range(Range::AtLeast(0.0))
         .deprecated(COLOUR_DEPRECATED),
         ALBEDO_TEXTURE,
         BASE_EMISSION,

@@ -68,6 +68,11 @@ pub type MaterialId = u32;
 pub trait MaterialResources {
     /// The image map that a texture element asks for; whatever is wrong with it has been reported.
     fn texture(&mut self, node: &Node) -> TextureId;
+    /// The image map of exponents, which have to be above 0, that a texture element asks for; whatever is wrong with it has
+    /// been reported.
+    fn exponents(&mut self, node: &Node) -> TextureId {
+        self.texture(node)
+    }
     /// The complex index of refraction, n and k by wavelength, of the file that a field names; whatever is wrong
     /// with it has been reported.
     fn complex_index(&mut self, node: &Node, field: &str) -> [Spectrum; 2];

@@ -321,7 +321,7 @@ impl Gloss {
         }
         if let Some(map) = node.node("exponent_map") {
             node.disregard_field("exponent");
-            return Self::Exponents(resources.texture(map));
+            return Self::Exponents(resources.exponents(map));
         }
         // The stand-in is for a phong that lacks both, which has been reported, and for a `fast_sss` that says nothing.
         let exponent = node.opt_real("exponent").map(|n| Microfacets::of_exponent(Real::from_f64(n.value)));

@@ -1,6 +1,7 @@
 //! Materials by name, built when they are first used with a mesh's texture coordinates.
 
 use super::Context;
+use super::complex_index;
 use super::emission::{self, Emission, Layers};
 use super::media::MediumTable;
 use super::names::Names;
@@ -9,7 +10,6 @@ use crate::codes;
 use crate::settings::Settings;
 use indigo_decl::{Kind, Node};
 use indigo_diag::{Diagnostic, Sink, Span, Spanned};
-use indigo_formats::nk;
 use indigo_scatter::materials::blend;
 use indigo_scatter::{Material, MaterialId, MaterialResources, Medium, MediumId};
 use indigo_spectrum::Spectrum;
@@ -293,23 +293,27 @@ impl MaterialResources for Resources<'_, '_, '_, '_, '_> {
         self.table.textures.get(node, set, self.context)
     }
 
+    fn exponents(&mut self, node: &Node) -> TextureId {
+        let id = self.texture(node);
+        let below = self.table.textures.texture(id).share_not_above(0.0);
+        let found = format!("{}: exponents have to be above 0", node.text("path").value);
+        if below == 1.0 {
+            let what = "expected texels above 0 by the map's a, b and c, found none";
+            self.context.sink.push_or_count(
+                Diagnostic::error(indigo_decl::codes::OUT_OF_RANGE, node.span, found).expected(what),
+            );
+        } else if below > 0.0 {
+            let share = (100.0 * below).max(0.1);
+            let message =
+                format!("{found}: {share:.1} % of the texels are not, and count as 0, the widest highlight");
+            self.context.sink.push_or_count(Diagnostic::warning(codes::NO_EXPONENT, node.span, message));
+        }
+        id
+    }
+
     fn complex_index(&mut self, node: &Node, field: &str) -> [Spectrum; 2] {
         let path = node.text(field);
-        let index = self.context.read(&path.value, path.span).and_then(|file| {
-            nk::read(&file.bytes)
-                .map_err(|error| {
-                    self.context.sink.push(
-                        Diagnostic::error(
-                            codes::BAD_FILE,
-                            path.span,
-                            format!("{}:{}: bad file of refractive indices", file.path, error.position),
-                        )
-                        .expected(format!("expected {}, found {}", error.expected, error.found)),
-                    );
-                })
-                .ok()
-        });
-        index.map_or([Spectrum::uniform(1.0), Spectrum::BLACK], |index| tabulated(&index))
+        complex_index::read(&path.value, path.span, self.context)
     }
 
     fn material(&mut self, node: &Node, field: &str) -> MaterialId {
@@ -386,19 +390,6 @@ fn made_of_itself<'n>(name: &str, span: Span, round: impl Iterator<Item = &'n St
     let message = format!("material {name} is made of itself: {}", round.join(", then "));
     Diagnostic::error(codes::BLEND_CYCLE, span, message)
         .expected("expected a material that is made of others")
-}
-
-/// n and k at every nanometre of the visible range.
-fn tabulated(index: &nk::ComplexIndex) -> [Spectrum; 2] {
-    const FIRST_NM: u32 = 360;
-    const LAST_NM: u32 = 830;
-    let samples: Vec<[f64; 2]> = (FIRST_NM..=LAST_NM).map(|nm| index.at(f64::from(nm))).collect();
-    [0, 1].map(|i| {
-        let values: Vec<f64> = samples.iter().map(|s| s[i]).collect();
-        let (start, end) = (f64::from(FIRST_NM) * 1e-9, f64::from(LAST_NM) * 1e-9);
-        // The reader lets nothing through that a table could not hold.
-        Spectrum::regular_tabulated(start, end, &values).unwrap_or(Spectrum::BLACK)
-    })
 }
 
 impl Resources<'_, '_, '_, '_, '_> {

@@ -6,6 +6,7 @@
 mod aperture;
 mod background;
 mod camera;
+mod complex_index;
 mod emission;
 mod environment;
 mod geometry;

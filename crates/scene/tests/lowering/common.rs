@@ -21,6 +21,10 @@ impl Resolver for Memory {
             "oblong.png" => return Ok(picture(path, [1024, 512], |_| 0.0)),
             "odd.png" => return Ok(picture(path, [600, 600], |_| 0.0)),
             "black.png" => return Ok(picture(path, [512, 512], |_| 0.0)),
+            "ultraviolet.nk" => b"4 100 200 1\n1 2\n1 2\n",
+            "blue.nk" => b"4 350 500 1\n1 2\n1 2\n",
+            "green.nk" => b"4 500 550 1\n1 2\n1 2\n",
+            "whole.nk" => b"\xef\xbb\xbf4 380 780 1\n1 2\n1 2\n",
             "inifile.xml" => {
                 b"<settings><width>40</width><height>30</height><max_depth>7</max_depth></settings>"
             }

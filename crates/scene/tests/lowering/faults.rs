@@ -128,6 +128,56 @@ fn reflectances_and_coefficients_are_not_negative() {
     assert_eq!(found(&format!("{white}{sphere}{CAMERA}")), Vec::<String>::new());
 }
 
+#[test]
+fn colours_are_not_negative() {
+    let sphere = SPHERE.replace("white", "t");
+    for kind in ["diffuse", "diffuse_transmitter"] {
+        let with = |colour: &str| {
+            format!(
+                "<material><name>t</name><{kind}><colour>{colour}</colour></{kind}></material>{sphere}{CAMERA}"
+            )
+        };
+        let [bad, sound] = ["0.5 -1 0.5", "0.5 0 0.5"].map(|colour| found(&with(colour)));
+        assert_eq!(bad.iter().filter(|f| f.ends_with("E0203")).count(), 1, "{bad:?}");
+        assert!(sound.iter().all(|f| f.ends_with("W0104")), "{sound:?}");
+    }
+}
+
+#[test]
+fn exponents_of_a_map_are_above_0() {
+    let sphere = SPHERE.replace("white", "t");
+    for (path, b, code) in [("dusty", 100, "W0322"), ("tiny", 100, "E0203"), ("grey", -100, "E0203")] {
+        let map =
+            format!("<exponent_map><path>{path}.png</path><exponent>1</exponent><b>{b}</b></exponent_map>");
+        let material =
+            format!("<material><name>t</name><phong><ior>1.5</ior>{map}</phong></material>{sphere}");
+        expect_one(&material, "<exponent_map>", code);
+    }
+    let map = "<exponent_map><path>grey.png</path><exponent>1</exponent><b>100</b></exponent_map>";
+    let material = format!("<material><name>t</name><phong><ior>1.5</ior>{map}</phong></material>{sphere}");
+    assert_eq!(found(&format!("{material}{CAMERA}")), Vec::<String>::new());
+}
+
+#[test]
+fn refractive_indices_are_those_of_visible_light() {
+    let sphere = SPHERE.replace("white", "t");
+    let with = |file: &str| {
+        format!(
+            "<material><name>t</name><phong><nk_data>{file}.nk</nk_data><exponent>100</exponent></phong></material>{sphere}"
+        )
+    };
+    expect_one(&with("ultraviolet"), "ultraviolet.nk", "E0303");
+    expect_one(&with("blue"), "blue.nk", "W0303");
+    expect_one(&with("green"), "green.nk", "W0303");
+    assert_eq!(found(&format!("{}{CAMERA}", with("whole"))), Vec::<String>::new());
+    let said = |file: &str| {
+        let loaded = loaded(&format!("{HEAD}{}{CAMERA}</scene>", with(file)));
+        loaded.sink.diagnostics()[0].message.clone()
+    };
+    assert!(said("green").ends_with("those at 500 nm are held below, and those at 550 nm are held above"));
+    assert!(said("blue").ends_with("seen: those at 500 nm are held above"), "{}", said("blue"));
+}
+
 /// One fault is one message.
 #[test]
 fn faults_have_no_false_followers() {
