@@ -42,6 +42,11 @@ impl HenyeyGreenstein {
         Self { g: node.node("g_spectrum").map_or(Spectrum::BLACK, |s| read::mean_cosine(s, sink)) }
     }
 
+    /// g.
+    pub fn mean_cosine(&self, nm: f64) -> f64 {
+        self.g.at(nm)
+    }
+
     /// The phase function at some wavelengths.
     #[inline]
     pub fn at(&self, lambda: &SampledWavelengths) -> HenyeyGreensteinLobe {

@@ -24,7 +24,7 @@ pub trait Phase {
 /// Makes the enums of phase functions as a scene and as a path holds them.
 ///
 /// A line `name => Kind / Lobe` registers a phase function of the file `name.rs`: `Kind` has
-/// `build(&Node, &mut Sink)` and `at(&SampledWavelengths)`, `Lobe` is a [`Phase`].
+/// `build(&Node, &mut Sink)`, `mean_cosine(nm)` and `at(&SampledWavelengths)`, `Lobe` is a [`Phase`].
 macro_rules! registry {
     ($($name:ident => $kind:ident / $lobe:ident,)*) => {
         /// The kinds of phase function.
@@ -49,6 +49,13 @@ macro_rules! registry {
                     return Some(Self::$kind($name::$kind::build(node, sink)));
                 })*
                 None
+            }
+
+            /// The mean cosine between the old and the new way of light of a wavelength in nm.
+            pub fn mean_cosine(&self, nm: f64) -> f64 {
+                match self {
+                    $(Self::$kind(p) => p.mean_cosine(nm),)*
+                }
             }
 
             /// The phase function at some wavelengths.

@@ -23,6 +23,11 @@ impl Uniform {
         Self
     }
 
+    /// 0.
+    pub fn mean_cosine(&self, _nm: f64) -> f64 {
+        0.0
+    }
+
     /// The phase function at some wavelengths.
     #[inline]
     pub fn at(&self, _lambda: &SampledWavelengths) -> UniformLobe {

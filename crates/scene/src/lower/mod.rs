@@ -7,6 +7,7 @@ mod aperture;
 mod background;
 mod camera;
 mod complex_index;
+mod dense_probe;
 mod emission;
 mod environment;
 mod geometry;
@@ -219,6 +220,7 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
     };
     scene.find_starting_media(&lamps);
     portal_probe::warn_of_openings(root, &scene, origin, context);
+    dense_probe::warn_of_dense_media(root, &scene, context);
     Some(scene)
 }
 

@@ -159,6 +159,32 @@ fn exponents_of_a_map_are_above_0() {
 }
 
 #[test]
+fn media_too_dense_for_their_size_are_told() {
+    let warned = |side: f64, density: f64, phase: &str| {
+        let scattering = format!(
+            "<subsurface_scattering><scattering_coefficient_spectrum><uniform><value>{density}</value></uniform></scattering_coefficient_spectrum><phase_function>{phase}</phase_function></subsurface_scattering>"
+        );
+        let medium = format!(
+            "<medium><name>g</name><precedence>10</precedence><basic><ior>1.5</ior><cauchy_b_coeff>0</cauchy_b_coeff>{scattering}</basic></medium>"
+        );
+        let glass = "<material><name>white</name><specular><transparent>true</transparent><internal_medium_name>g</internal_medium_name></specular></material>";
+        let head = HEAD.replace("<material><name>white</name><diffuse><albedo_spectrum><uniform><value>0.5</value></uniform></albedo_spectrum></diffuse></material>", glass);
+        let model = format!("<model><pos>0 0 0</pos><scale>{side}</scale><mesh_name>tri</mesh_name></model>");
+        let loaded = loaded(&format!("{head}{medium}{CAMERA}{MESH}{model}</scene>"));
+        let codes: Vec<&str> = loaded.sink.diagnostics().iter().map(|d| d.code).collect();
+        assert!(codes.iter().all(|&code| code == "W0323"), "{codes:?}");
+        codes.len() == 1
+    };
+    // Rays keep 36 roundings of a triangle's side off it, 2 micrometres of a metre.
+    assert!(warned(1.0, 1e5, "<uniform/>"));
+    assert!(!warned(1.0, 1e3, "<uniform/>"));
+    assert!(!warned(0.01, 1e5, "<uniform/>"));
+    // What is scattered ahead goes on.
+    let ahead = "<henyey_greenstein><g_spectrum><uniform><value>0.95</value></uniform></g_spectrum></henyey_greenstein>";
+    assert!(!warned(1.0, 1e5, ahead));
+}
+
+#[test]
 fn refractive_indices_are_those_of_visible_light() {
     let sphere = SPHERE.replace("white", "t");
     let with = |file: &str| {
