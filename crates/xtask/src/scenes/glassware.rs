@@ -201,16 +201,20 @@ pub fn write_empty_glass(out: &mut dyn Write) -> io::Result<()> {
     write_model("glass", [0.0; 3], 1.0, None, out)
 }
 
-/// Three tumblers side by side, with materials `milk`, `beer` and `wine` in them.
+/// Of a tumbler: that of a small glass for spirits, inside 1.4 cm wide.
+const SMALL: f64 = 0.22;
+
+/// Three small tumblers side by side, with materials `milk`, `beer` and `wine` in them. A red wine as it was measured lets no
+/// light through a wider one.
 ///
 /// # Errors
 /// Those of `out`.
 pub fn write_drinks(out: &mut dyn Write) -> io::Result<()> {
     write_mesh("glass", true, "glass", &tumbler_glass().turned(TURN), out)?;
-    for (material, x) in [("milk", -0.095), ("beer", 0.0), ("wine", 0.095)] {
+    for (material, x) in [("milk", -0.021), ("beer", 0.0), ("wine", 0.021)] {
         write_mesh(material, true, material, &tumbler().liquid(0.092).turned(TURN), out)?;
-        write_model("glass", [x, 0.0, 0.0], 1.0, None, out)?;
-        write_model(material, [x, 0.0, 0.0], 1.0, None, out)?;
+        write_model("glass", [x, 0.0, 0.0], SMALL, None, out)?;
+        write_model(material, [x, 0.0, 0.0], SMALL, None, out)?;
     }
     Ok(())
 }

@@ -2,8 +2,10 @@
 
 mod contact_sheet;
 pub mod glassware;
+mod hand;
 mod igs;
 mod instances;
+mod isosurface;
 mod lampshade;
 mod lathe;
 mod moon;
@@ -61,8 +63,13 @@ const SCENES: &[Scene] = &[
     },
     Scene {
         name: "drinks",
-        about: "milk, beer and red wine in three glasses",
+        about: "milk, beer and red wine in three small glasses",
         parts: &[("drinks.igs", |out| fill(DRINKS, glassware::write_drinks, out))],
+    },
+    Scene {
+        name: "skin",
+        about: "hands of epidermis over dermis, with little, some and much melanin",
+        parts: &[("skin.igs", |out| fill(SKIN, hand::write_hands, out))],
     },
     Scene {
         name: "lampshade",
@@ -81,6 +88,7 @@ const SCENES: &[Scene] = &[
 
 const WINE_GLASS: &str = include_str!("../../data/scenes/wineglass.igs");
 const DRINKS: &str = include_str!("../../data/scenes/drinks.igs");
+const SKIN: &str = include_str!("../../data/scenes/skin.igs");
 const LAMPSHADE: &str = include_str!("../../data/scenes/lampshade.igs");
 const METALS: &str = include_str!("../../data/scenes/metals.igs");
 const MEDIA: &str = include_str!("../../data/scenes/media.igs");
