@@ -11,6 +11,7 @@ mod generate;
 mod media_library;
 mod stages;
 mod tidy;
+mod validate;
 mod venv;
 
 use std::process::ExitCode;
@@ -56,6 +57,12 @@ const COMMANDS: &[Command] = &[
         arguments: "SCENE|all",
         about: "write the scenes that are made by program into testscenes/generated; without SCENE their list",
         run: scenes::run,
+    },
+    Command {
+        name: "validate",
+        arguments: "[--full] [--only NAME] [...]",
+        about: "render scenes whose pictures are known, and write a report with a verdict on each",
+        run: validate::run,
     },
     Command {
         name: "bench",

@@ -13,6 +13,14 @@ const TEST_PACKAGES: &[&str] = &[
     "pyoidn==2.5.1.0; sys_platform == 'linux' and platform_machine == 'x86_64'",
 ];
 
+/// What `cargo xtask validate` renders with beside Indigo.
+const OTHER_RENDERERS: &[&str] = &["mitsuba==3.9.1", "numpy==2.3.5"];
+
+/// The environment of other renderers, made on first use; gives its Python.
+pub fn for_validation() -> Result<PathBuf, String> {
+    ensure("mitsuba", OTHER_RENDERERS)
+}
+
 /// The environment of the tests, made on first use; gives its Python.
 pub fn for_tests() -> Result<PathBuf, String> {
     ensure("venv", TEST_PACKAGES)

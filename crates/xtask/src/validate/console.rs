@@ -1,0 +1,216 @@
+//! Renders scenes with the release console, and reads the pictures.
+
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use exr::prelude::{FlatSamples, read_first_flat_layer_from_file};
+
+use super::check::{Area, Check, Quantity, Renderer};
+use crate::process;
+
+/// The settings that `text::settings` writes, in whose place a renderer's own stand.
+const TECHNIQUE: &str = "<metropolis>false</metropolis><bidirectional>false</bidirectional>";
+/// Rows of Rec. 709 (D65) to XYZ, as IEC 61966-2-1 derives them, to seven digits.
+const RGB_TO_XYZ: [[f64; 3]; 3] = [
+    [0.412_390_8, 0.357_584_3, 0.180_480_8],
+    [0.212_639_0, 0.715_168_7, 0.072_192_3],
+    [0.019_330_8, 0.119_194_8, 0.950_532_2],
+];
+
+/// A picture in X, Y, Z, cd/m².
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// Columns and rows.
+    pub size: [usize; 2],
+    /// Rows from the top.
+    pub pixels: Vec<[f64; 3]>,
+}
+
+impl Picture {
+    /// Reads an EXR file of linear Rec. 709.
+    pub fn read(path: &Path) -> Result<Self, String> {
+        let fault = |why: &dyn std::fmt::Display| format!("{}: {why}", path.display());
+        let image = read_first_flat_layer_from_file(path).map_err(|error| fault(&error))?;
+        let layer = image.layer_data;
+        let channel = |name: &str| {
+            let found = layer.channel_data.list.iter().find(|channel| channel.name.to_string() == name);
+            match found.map(|channel| &channel.sample_data) {
+                Some(FlatSamples::F32(values)) => Ok(values),
+                _ => Err(fault(&format!("no channel {name} of 32-bit numbers"))),
+            }
+        };
+        let (r, g, b) = (channel("R")?, channel("G")?, channel("B")?);
+        let rgb = r.iter().zip(g).zip(b).map(|((r, g), b)| [*r, *g, *b].map(f64::from));
+        let pixels = rgb.map(|rgb| RGB_TO_XYZ.map(|row| (0..3).map(|c| row[c] * rgb[c]).sum())).collect();
+        Ok(Self { size: [layer.size.x(), layer.size.y()], pixels })
+    }
+
+    /// Mean X, Y, Z of an area, or of all.
+    pub fn mean(&self, area: Option<Area>) -> [f64; 3] {
+        let [x0, x1, y0, y1] = area.unwrap_or([0, self.size[0], 0, self.size[1]]);
+        let mut sum = [0.0; 3];
+        for y in y0..y1 {
+            for pixel in &self.pixels[y * self.size[0] + x0..y * self.size[0] + x1] {
+                (0..3).for_each(|c| sum[c] += pixel[c]);
+            }
+        }
+        sum.map(|s| s / ((x1 - x0) * (y1 - y0)) as f64)
+    }
+
+    /// A number of an area.
+    pub fn value(&self, quantity: Quantity, area: Option<Area>, unit: f64) -> f64 {
+        let [x, y, z] = self.mean(area);
+        match quantity {
+            Quantity::Y => y / unit,
+            Quantity::XOverY => x / y,
+            Quantity::ZOverY => z / y,
+        }
+    }
+}
+
+/// The console, and where it may write.
+pub struct Console {
+    /// The program.
+    pub program: PathBuf,
+    /// A folder of this run's own.
+    pub folder: PathBuf,
+    /// How many run at once, each on one thread.
+    pub jobs: usize,
+}
+
+/// Writes a scene to be rendered by one of Indigo's ways, and its files, into a folder; gives its path.
+pub fn write_scene(
+    folder: &Path,
+    scene: &str,
+    files: &[(String, Vec<u8>)],
+    renderer: Renderer,
+) -> Result<PathBuf, String> {
+    let write = |path: &Path, bytes: &[u8]| {
+        std::fs::write(path, bytes).map_err(|error| format!("{}: {error}", path.display()))
+    };
+    if !scene.contains(TECHNIQUE) {
+        return Err("the scene has no settings".into());
+    }
+    std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    for (name, bytes) in files {
+        write(&folder.join(name), bytes)?;
+    }
+    let saved = "<save_untonemapped_exr>true</save_untonemapped_exr><logging>false</logging>";
+    let path = scene_path(folder, renderer);
+    let settings = format!("{}{saved}", renderer.settings());
+    write(&path, scene.replace(TECHNIQUE, &settings).as_bytes())?;
+    Ok(path)
+}
+
+fn scene_path(folder: &Path, renderer: Renderer) -> PathBuf {
+    folder.join(format!("{renderer:?}.igs").to_lowercase())
+}
+
+/// One call of the console.
+struct Job<'a> {
+    check: &'a Check,
+    renderer: Renderer,
+    seed: usize,
+}
+
+impl Console {
+    /// Builds the release console, if it must be, or takes another program.
+    pub fn new(program: Option<PathBuf>, folder: &Path, jobs: usize) -> Result<Self, String> {
+        let program = match program {
+            Some(program) => program,
+            None => {
+                process::run(&mut process::cargo(&["build", "--release", "--package", "indigo-cli"]))?;
+                process::target_dir()
+                    .join("release")
+                    .join(format!("indigo_console{}", std::env::consts::EXE_SUFFIX))
+            }
+        };
+        std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+        let program = std::fs::canonicalize(&program).map_err(|e| format!("{}: {e}", program.display()))?;
+        let folder = std::fs::canonicalize(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+        Ok(Self { program, folder, jobs })
+    }
+
+    /// Renders checks by all of Indigo's ways that they name: `pictures[check][renderer][seed]`; empty for others.
+    pub fn render(&self, checks: &[Check], seeds: usize) -> Result<Vec<Vec<Vec<Picture>>>, String> {
+        let mut jobs = vec![];
+        for check in checks {
+            for &renderer in check.renderers.iter().filter(|r| **r != Renderer::Mitsuba) {
+                self.write_scene(check, renderer)?;
+                jobs.extend((0..seeds).map(|seed| Job { check, renderer, seed }));
+            }
+        }
+        let next = AtomicUsize::new(0);
+        let done: Mutex<Vec<Option<Result<Picture, String>>>> =
+            Mutex::new((0..jobs.len()).map(|_| None).collect());
+        std::thread::scope(|scope| {
+            for _ in 0..self.jobs {
+                scope.spawn(|| {
+                    while let Some((i, job)) =
+                        Some(next.fetch_add(1, Ordering::Relaxed)).and_then(|i| Some((i, jobs.get(i)?)))
+                    {
+                        if job.seed == 0 {
+                            println!("  {}, {}", job.check.name, job.renderer.name());
+                        }
+                        let result = self.run(job);
+                        done.lock().expect("no thread panics")[i] = Some(result);
+                    }
+                });
+            }
+        });
+        let mut done = done.into_inner().expect("no thread panics").into_iter().flatten();
+        let mut all = vec![];
+        for check in checks {
+            let mut of_check = vec![];
+            for renderer in &check.renderers {
+                let count = if *renderer == Renderer::Mitsuba { 0 } else { seeds };
+                of_check.push(done.by_ref().take(count).collect::<Result<Vec<_>, _>>()?);
+            }
+            all.push(of_check);
+        }
+        Ok(all)
+    }
+
+    fn folder_of(&self, check: &Check) -> PathBuf {
+        self.folder.join(check.slug())
+    }
+
+    fn write_scene(&self, check: &Check, renderer: Renderer) -> Result<PathBuf, String> {
+        write_scene(&self.folder_of(check), &check.scene, &check.files, renderer)
+            .map_err(|error| format!("{}: {error}", check.name))
+    }
+
+    fn run(&self, job: &Job) -> Result<Picture, String> {
+        let stem = format!("{:?}_{}", job.renderer, job.seed).to_lowercase();
+        let folder = self.folder_of(job.check);
+        let picture = folder.join(format!("{stem}.png"));
+        // Seeds of different ways never meet.
+        let seed = 1000 * (job.renderer as usize + 1) + job.seed;
+        let output = std::process::Command::new(&self.program)
+            .arg(scene_path(&folder, job.renderer))
+            .args([
+                "-quiet",
+                "-t",
+                "1",
+                "-seed",
+                &seed.to_string(),
+                "-haltspp",
+                &job.check.samples.to_string(),
+                "-o",
+            ])
+            .arg(&picture)
+            .current_dir(&folder)
+            .output()
+            .map_err(|error| format!("{}: {error}", self.program.display()))?;
+        let said = String::from_utf8_lossy(&output.stderr);
+        if !output.status.success() {
+            return Err(format!("{}, {}: {}\n{said}", job.check.name, job.renderer.name(), output.status));
+        }
+        let linear = folder.join(format!("{stem}_untonemapped.exr"));
+        let read = Picture::read(&linear);
+        // Thousands of them would fill folders that nobody looks at: the scenes stay.
+        drop((std::fs::remove_file(&linear), std::fs::remove_file(&picture)));
+        read
+    }
+}

@@ -1,0 +1,338 @@
+//! A scene in terms of no renderer, written for both: as text of Indigo's format, and as the dictionary that Mitsuba
+//! loads. Radiances are relative to that of even light, 1.
+
+use std::f64::consts::{PI, TAU};
+use std::fmt::Write;
+
+use exr::prelude::{Image, SpecificChannels, WritableImage};
+use serde_json::{Value, json};
+
+use super::super::oracles::{AROUND, NITS_PER_UNIFORM};
+use super::super::shapes::{Mesh, Point, dot, mesh_light, model, sub};
+use super::super::text::{
+    ONE_PIXEL, background, basic, diffuse, flat_camera, grey, henyey_greenstein, medium, scattering,
+    scene_file, settings, specular, sphere, uniform,
+};
+
+/// Side of the pictures.
+pub const SIDE: u32 = 24;
+/// Luminance of radiance 1 in Indigo, cd/m².
+pub const UNIT: f64 = AROUND * NITS_PER_UNIFORM;
+/// Wavelengths of tables, nm: the range of both renderers.
+const RANGE_NM: [f64; 2] = [360.0, 830.0];
+
+/// The name of a map beside a scene.
+const MAP_FILE: &str = "map.exr";
+
+/// A number at each wavelength.
+#[derive(Clone, Debug)]
+pub enum Tone {
+    /// The same at all.
+    Even(f64),
+    /// Linear between equal steps from 360 to 830 nm.
+    Table(Vec<f64>),
+}
+
+/// What something is made of.
+#[derive(Clone, Debug)]
+pub enum Surface {
+    /// Lambert's.
+    Matt(Tone),
+    /// Smooth and clear, or absorbing with a coefficient in 1/m.
+    Glass(f64, f64),
+    /// Rough and clear: index and exponent.
+    Frosted(f64, f64),
+    /// Complex index, and the exponent of a rough one.
+    Metal(Tone, Tone, f64),
+    /// Index of the body; absorption and scattering in 1/m; mean cosine.
+    Fog(f64, f64, f64, f64),
+    /// Shines with a radiance from its front, and reflects nothing.
+    Lamp(Tone),
+}
+
+/// Its shape.
+#[derive(Clone, Debug)]
+pub enum Shape {
+    /// Centre and radius.
+    Ball(Point, f64),
+    /// Triangles.
+    Triangles(Mesh),
+}
+
+/// Where it is seen from.
+#[derive(Clone, Debug)]
+pub struct View {
+    /// The camera.
+    pub eye: Point,
+    /// What is in the middle of the picture.
+    pub target: Point,
+    /// Half the width of the picture at distance 1.
+    pub tangent: f64,
+    /// Radius of the aperture and distance of focus.
+    pub lens: Option<[f64; 2]>,
+}
+
+/// All of it.
+#[derive(Clone, Debug)]
+pub struct Stage {
+    /// The camera.
+    pub view: View,
+    /// What stands there.
+    pub things: Vec<(Shape, Surface)>,
+    /// Radiance of even light round it.
+    pub around: f64,
+    /// Light by a map in latitude and longitude.
+    pub map: Option<Map>,
+}
+
+/// Texels of one colour each, rows from the top.
+#[derive(Clone, Debug)]
+pub struct Map {
+    size: [usize; 2],
+    values: Vec<f32>,
+}
+
+impl Map {
+    /// A wide soft light in a direction, and a little everywhere.
+    pub fn bright_towards(direction: Point) -> Self {
+        let size = [128, 64];
+        let texel = |i: usize| {
+            let [x, y] = [i % size[0], i / size[0]].map(|c| c as f64 + 0.5);
+            // The middle lies towards +y, the right half towards +x, the top towards +z.
+            let (azimuth, polar) = (TAU * (x / size[0] as f64 - 0.5), PI * y / size[1] as f64);
+            let d = [polar.sin() * azimuth.sin(), polar.sin() * azimuth.cos(), polar.cos()];
+            (0.2 + 2.0 * (4.0 * (dot(d, direction) - 1.0)).exp()) as f32
+        };
+        Self { size, values: (0..size[0] * size[1]).map(texel).collect() }
+    }
+
+    /// As an EXR file.
+    fn file(&self) -> Vec<u8> {
+        let value = |at: exr::math::Vec2<usize>| {
+            let v = self.values[at.y() * self.size[0] + at.x()];
+            (v, v, v)
+        };
+        let image = Image::from_channels((self.size[0], self.size[1]), SpecificChannels::rgb(value));
+        let mut bytes = std::io::Cursor::new(vec![]);
+        image.write().to_buffered(&mut bytes).expect("memory takes every byte");
+        bytes.into_inner()
+    }
+}
+
+impl Tone {
+    fn values(&self) -> Vec<f64> {
+        match self {
+            Self::Even(value) => vec![*value; 2],
+            Self::Table(values) => values.clone(),
+        }
+    }
+
+    /// As a spectrum of Indigo, times a factor.
+    fn text(&self, factor: f64) -> String {
+        match self {
+            Self::Even(value) => uniform(value * factor),
+            Self::Table(values) => {
+                let list: Vec<String> = values.iter().map(|v| (v * factor).to_string()).collect();
+                let [from, to] = RANGE_NM.map(|nm| nm * 1e-9);
+                format!(
+                    "<regular_tabulated><start_wavelength>{from}</start_wavelength><end_wavelength>{to}</end_wavelength>\
+                     <num_values>{}</num_values><values>{}</values></regular_tabulated>",
+                    list.len(),
+                    list.join(" ")
+                )
+            }
+        }
+    }
+
+    fn dictionary(&self) -> Value {
+        match self {
+            Self::Even(value) => json!({"type": "uniform", "value": value}),
+            Self::Table(values) => json!({
+                "type": "regular",
+                "wavelength_min": RANGE_NM[0],
+                "wavelength_max": RANGE_NM[1],
+                "values": values.iter().map(f64::to_string).collect::<Vec<_>>().join(" "),
+            }),
+        }
+    }
+}
+
+/// Width of Trowbridge and Reitz's distribution that has the density of a Phong lobe along the normal (Walter et al. 2007).
+fn width(exponent: f64) -> f64 {
+    // Indigo's smoothest surface has the width 1e-4.
+    (2.0 / (exponent + 2.0)).sqrt().max(1e-4)
+}
+
+impl Surface {
+    /// Definitions of a material `name`.
+    fn text(&self, name: &str) -> String {
+        let kind = |kind: String| format!("<material><name>{name}</name>{kind}</material>");
+        let body = |ior: f64, absorption: f64, more: &str| {
+            medium(&format!("in {name}"), 10, &basic(ior, &uniform(absorption), more))
+        };
+        match self {
+            Self::Matt(tone) => diffuse(name, &tone.text(1.0)),
+            Self::Lamp(_) => grey(name, 0.0),
+            Self::Glass(ior, absorption) => {
+                body(*ior, *absorption, "") + &specular(name, &format!("in {name}"))
+            }
+            Self::Frosted(ior, exponent) => {
+                body(*ior, 0.0, "")
+                    + &kind(format!(
+                        "<glossy_transparent><internal_medium_name>in {name}</internal_medium_name><exponent>{exponent}</exponent></glossy_transparent>"
+                    ))
+            }
+            Self::Metal(_, _, exponent) => {
+                kind(format!("<phong><nk_data>{name}.nk</nk_data><exponent>{exponent}</exponent></phong>"))
+            }
+            Self::Fog(ior, absorption, coefficient, g) => {
+                let phase = if *g == 0.0 { "<uniform/>".to_owned() } else { henyey_greenstein(*g) };
+                body(*ior, *absorption, &scattering(&uniform(*coefficient), &phase))
+                    + &specular(name, &format!("in {name}"))
+            }
+        }
+    }
+
+    /// A file of the material's, if it needs one.
+    fn file(&self, name: &str) -> Option<(String, Vec<u8>)> {
+        let Self::Metal(n, k, _) = self else { return None };
+        let (n, k) = (n.values(), k.values());
+        let mut text = format!("4 {} {} {}\n", RANGE_NM[0], RANGE_NM[1], n.len() - 1);
+        for (n, k) in n.iter().zip(&k) {
+            let _ = writeln!(text, "{n} {k}");
+        }
+        Some((format!("{name}.nk"), text.into_bytes()))
+    }
+
+    /// What Mitsuba's shape holds beside its shape.
+    fn dictionary(&self) -> Value {
+        let matt = |tone: &Tone| json!({"type": "twosided", "inner": {"type": "diffuse", "reflectance": tone.dictionary()}});
+        let homogeneous = |absorption: f64, coefficient: f64, g: f64| {
+            let extinction = absorption + coefficient;
+            let phase = if g == 0.0 { json!({"type": "isotropic"}) } else { json!({"type": "hg", "g": g}) };
+            json!({
+                "type": "homogeneous",
+                "albedo": coefficient / extinction,
+                "sigma_t": extinction,
+                "phase": phase,
+            })
+        };
+        let smooth = |ior: f64| json!({"type": "dielectric", "int_ior": ior, "ext_ior": 1.0});
+        match self {
+            Self::Matt(tone) => json!({"bsdf": matt(tone)}),
+            Self::Lamp(tone) => json!({
+                "bsdf": matt(&Tone::Even(0.0)),
+                "emitter": {"type": "area", "radiance": tone.dictionary()},
+            }),
+            Self::Glass(ior, 0.0) => json!({"bsdf": smooth(*ior)}),
+            Self::Glass(ior, absorption) => {
+                json!({"bsdf": smooth(*ior), "interior": homogeneous(*absorption, 0.0, 0.0)})
+            }
+            Self::Frosted(ior, exponent) => json!({"bsdf": {
+                "type": "roughdielectric", "distribution": "ggx", "alpha": width(*exponent), "int_ior": ior, "ext_ior": 1.0,
+            }}),
+            Self::Metal(n, k, exponent) => json!({"bsdf": {"type": "twosided", "inner": {
+                "type": "roughconductor", "distribution": "ggx", "alpha": width(*exponent),
+                "eta": n.dictionary(), "k": k.dictionary(),
+            }}}),
+            Self::Fog(ior, absorption, coefficient, g) => {
+                let bsdf = if *ior == 1.0 { json!({"type": "null"}) } else { smooth(*ior) };
+                json!({"bsdf": bsdf, "interior": homogeneous(*absorption, *coefficient, *g)})
+            }
+        }
+    }
+}
+
+impl Stage {
+    /// The scene of Indigo.
+    pub fn text(&self) -> String {
+        let view = &self.view;
+        let mut camera = flat_camera(view.eye, sub(view.target, view.eye), view.tangent);
+        if let Some([radius, focus]) = view.lens {
+            camera = camera
+                .replace("<aperture_radius>1e-5<", &format!("<aperture_radius>{radius}<"))
+                .replace("<focus_distance>1<", &format!("<focus_distance>{focus}<"));
+        }
+        let mut parts = vec![settings(SIDE, ONE_PIXEL), camera];
+        if self.around > 0.0 {
+            parts.push(background(&uniform(self.around * AROUND)));
+        }
+        if self.map.is_some() {
+            parts.push(format!(
+                "<env_map><latlong><path>{MAP_FILE}</path><gain>{AROUND}</gain></latlong></env_map>"
+            ));
+        }
+        for (i, (shape, surface)) in self.things.iter().enumerate() {
+            let name = format!("thing{i}");
+            parts.push(surface.text(&name));
+            parts.push(match (shape, surface) {
+                (Shape::Ball(center, radius), _) => sphere(*center, *radius, &name),
+                (Shape::Triangles(mesh), Surface::Lamp(tone)) => {
+                    mesh.text(&name, &name) + &mesh_light(&name, &tone.text(AROUND), [0.0; 3], 1.0, "")
+                }
+                (Shape::Triangles(mesh), _) => mesh.text(&name, &name) + &model(&name),
+            });
+        }
+        scene_file(&parts)
+    }
+
+    /// Files that the scene names.
+    pub fn files(&self) -> Vec<(String, Vec<u8>)> {
+        let of = |(i, (_, surface)): (usize, &(Shape, Surface))| surface.file(&format!("thing{i}"));
+        let map = self.map.iter().map(|map| (MAP_FILE.to_owned(), map.file()));
+        self.things.iter().enumerate().filter_map(of).chain(map).collect()
+    }
+
+    /// The scene of Mitsuba; `mesh` and `look_at` are made by the script that loads it.
+    pub fn dictionary(&self) -> Value {
+        let view = &self.view;
+        let has_medium = |(_, surface): &(Shape, Surface)| {
+            matches!(surface, Surface::Fog(..))
+                || matches!(surface, Surface::Glass(_, absorption) if *absorption > 0.0)
+        };
+        let integrator = if self.things.iter().any(has_medium) { "volpath" } else { "path" };
+        let mut sensor = json!({
+            "type": "perspective",
+            "fov": 2.0 * view.tangent.atan().to_degrees(),
+            "to_world": {"look_at": [view.eye, view.target, [0.0, 0.0, 1.0]]},
+            "film": {
+                "type": "hdrfilm", "width": SIDE, "height": SIDE, "rfilter": {"type": "box"},
+                "pixel_format": "xyz", "component_format": "float32",
+            },
+            "sampler": {"type": "independent"},
+        });
+        if let Some([radius, focus]) = view.lens {
+            sensor["type"] = "thinlens".into();
+            sensor["aperture_radius"] = radius.into();
+            sensor["focus_distance"] = focus.into();
+        }
+        let mut scene =
+            json!({"type": "scene", "integrator": {"type": integrator, "max_depth": -1}, "sensor": sensor});
+        if self.around > 0.0 {
+            scene["around"] = json!({"type": "constant", "radiance": Tone::Even(self.around).dictionary()});
+        }
+        if let Some(map) = &self.map {
+            // Mitsuba's middle lies towards its +z, the right half towards -x, the top towards +y.
+            let turn = [[-1, 0, 0, 0], [0, 0, 1, 0], [0, 1, 0, 0], [0, 0, 0, 1]];
+            scene["map"] =
+                json!({"type": "envmap", "size": map.size, "grey": map.values, "to_world": {"matrix": turn}});
+        }
+        for (i, (shape, surface)) in self.things.iter().enumerate() {
+            let mut thing = surface.dictionary();
+            match shape {
+                Shape::Ball(center, radius) => {
+                    thing["type"] = "sphere".into();
+                    thing["center"] = json!(center);
+                    thing["radius"] = json!(radius);
+                }
+                Shape::Triangles(mesh) => {
+                    thing["type"] = "mesh".into();
+                    thing["vertices"] = json!(mesh.points);
+                    thing["faces"] = json!(mesh.triangles);
+                }
+            }
+            scene[format!("thing{i}")] = thing;
+        }
+        scene
+    }
+}

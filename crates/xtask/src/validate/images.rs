@@ -1,0 +1,118 @@
+//! Pictures for reports: tone-mapped, and maps of differences in standard errors.
+
+use super::console::Picture;
+use super::png;
+use super::statistics::Estimate;
+
+/// Differences of so many standard errors have the deepest colours.
+pub const DEEPEST: f64 = 5.0;
+
+/// Linear Rec. 709 of XYZ (IEC 61966-2-1).
+fn linear([x, y, z]: [f64; 3]) -> [f64; 3] {
+    [
+        3.2406 * x - 1.5372 * y - 0.4986 * z,
+        -0.9689 * x + 1.8758 * y + 0.0415 * z,
+        0.0557 * x - 0.2040 * y + 1.0570 * z,
+    ]
+}
+
+fn code(linear: f64) -> u8 {
+    let v = linear.clamp(0.0, 1.0);
+    let encoded = if v <= 0.003_130_8 { 12.92 * v } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 };
+    (255.0 * encoded).round() as u8
+}
+
+fn mean(pictures: &[Picture], i: usize) -> [f64; 3] {
+    let sum = pictures.iter().fold([0.0; 3], |sum: [f64; 3], p| [0, 1, 2].map(|c| sum[c] + p.pixels[i][c]));
+    sum.map(|s| s / pictures.len() as f64)
+}
+
+/// The luminance that is shown as white: three times the mean, or the brightest pixel where that is less.
+pub fn white(pictures: &[Picture]) -> f64 {
+    let values: Vec<f64> = (0..pictures[0].pixels.len()).map(|i| mean(pictures, i)[1]).collect();
+    let average = values.iter().sum::<f64>() / values.len() as f64;
+    values.iter().copied().fold(0.0, f64::max).min(3.0 * average).max(f64::MIN_POSITIVE)
+}
+
+/// The mean of pictures, as a data URI.
+pub fn tone_mapped(pictures: &[Picture], white: f64) -> String {
+    // A flat field is grey rather than white.
+    let scale = 0.8 / white;
+    encoded(pictures[0].size, |i| linear(mean(pictures, i)).map(|v| code(v * scale)))
+}
+
+/// How much brighter (warm) or darker (cold) pixels are than a value or than others' pixels, in standard errors.
+pub fn difference(own: &[Picture], other: &Other) -> String {
+    let luminance = |pictures: &[Picture], i: usize| {
+        Estimate::of(&pictures.iter().map(|p| p.pixels[i][1]).collect::<Vec<_>>())
+    };
+    encoded(own[0].size, |i| {
+        let a = luminance(own, i);
+        let b = match other {
+            Other::Value(value) => Estimate::exact(*value),
+            Other::Pictures(pictures) => luminance(pictures, i),
+        };
+        let error = a.error.hypot(b.error);
+        // What rounding alone can make is no difference.
+        let excess = ((a.mean - b.mean).abs() - 1e-5 * b.mean.abs()).max(0.0).copysign(a.mean - b.mean);
+        diverging(if error > 0.0 { excess / error } else { excess * f64::INFINITY })
+    })
+}
+
+/// What a picture is compared with.
+pub enum Other<'a> {
+    /// One luminance everywhere.
+    Value(f64),
+    /// Renders by others.
+    Pictures(&'a [Picture]),
+}
+
+/// White at 0; orange above, blue below.
+fn diverging(t: f64) -> [u8; 3] {
+    let deep = if t >= 0.0 { [186.0, 72.0, 10.0] } else { [22.0, 92.0, 168.0] };
+    let part = if t.is_nan() { 0.0 } else { (t.abs() / DEEPEST).min(1.0) };
+    deep.map(|d| (248.0 + (d - 248.0) * part).round() as u8)
+}
+
+fn encoded(size: [usize; 2], pixel: impl Fn(usize) -> [u8; 3]) -> String {
+    let bytes: Vec<u8> = (0..size[0] * size[1]).flat_map(pixel).collect();
+    let rows: Vec<&[u8]> = bytes.chunks(3 * size[0]).collect();
+    let mut file = vec![];
+    png::write_rgb(size[0], &rows, &mut file).expect("memory takes every byte");
+    format!("data:image/png;base64,{}", base64(&file))
+}
+
+/// RFC 4648, section 4.
+fn base64(bytes: &[u8]) -> String {
+    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for chunk in bytes.chunks(3) {
+        let word = (0..3).fold(0u32, |word, i| word << 8 | u32::from(chunk.get(i).copied().unwrap_or(0)));
+        for i in 0..4 {
+            let letter = char::from(LETTERS[(word >> (18 - 6 * i) & 63) as usize]);
+            text.push(if i <= chunk.len() { letter } else { '=' });
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn base64_of_the_standard_s_examples() {
+        for (plain, coded) in
+            [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foobar", "Zm9vYmFy")]
+        {
+            assert_eq!(base64(plain.as_bytes()), coded);
+        }
+    }
+
+    #[test]
+    fn brighter_is_warm_and_darker_is_cold() {
+        let [warm, none, cold] = [4.0, 0.0, -4.0].map(diverging);
+        assert!(warm[0] > warm[2] && cold[2] > cold[0]);
+        assert_eq!(none, [248; 3]);
+    }
+}

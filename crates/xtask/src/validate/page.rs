@@ -1,0 +1,239 @@
+//! The report as one page of HTML that needs no other file.
+
+use std::fmt::Write;
+
+use super::check::{Renderer, Target, Verdict};
+use super::images::{DEEPEST, Other, difference, tone_mapped, white};
+use super::report::{Checked, Report};
+use super::statistics::quantile;
+
+/// Style sheet, light and dark.
+const STYLE: &str = include_str!("page.css");
+/// Size of the drawing of an interval, in pixels.
+const INTERVAL: [f64; 2] = [132.0, 18.0];
+
+/// The whole page.
+pub fn page(report: &Report) -> String {
+    let mut page = format!(
+        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">\
+         <meta name=\"color-scheme\" content=\"light dark\"><title>Indigo: validation</title><style>{STYLE}</style></head><body><main>"
+    );
+    page += &head(report);
+    page += &summary(report);
+    for (name, list) in report.groups() {
+        let _ = write!(page, "<h2 id=\"{}\">{name}</h2>", anchor(name));
+        for checked in list {
+            page += &article(checked);
+        }
+    }
+    page + "</main></body></html>\n"
+}
+
+fn head(report: &Report) -> String {
+    let (count, failed) = (report.verdicts().count(), report.failures().count());
+    let said = if failed == 0 {
+        format!("<span class=\"verdict pass\">all {count} comparisons pass</span>")
+    } else {
+        format!("<span class=\"verdict fail\">{failed} of {count} comparisons fail</span>")
+    };
+    format!(
+        "<h1>Do the pictures come out true?</h1><p class=\"lead\">{said}</p>\
+         <p>Each picture was rendered {} times with independent random numbers; numbers are means, and intervals hold 95 % of them \
+         by Student’s t. A comparison fails when its deviation is so unlikely that a right renderer would fail anywhere in this report \
+         with a probability of {} (Šidák), or when noise hides deviations that it is meant to see: the band in each drawing is what \
+         would have been noticed.</p>\
+         <p>Beside a picture is its difference from the value it must have, or from the first picture, in standard errors of each pixel: \
+         <span class=\"key\"></span> −{DEEPEST} to +{DEEPEST}.</p>\
+         <p class=\"soft\">{} · {} · {} · {:.0} s · <code>{}</code></p>",
+        report.seeds,
+        report.family,
+        escaped(&report.version),
+        std::env::consts::OS,
+        std::env::consts::ARCH,
+        report.seconds,
+        escaped(&report.command)
+    )
+}
+
+fn summary(report: &Report) -> String {
+    let mut table = String::from(
+        "<div class=\"scroll\"><table><tr><th>Chapter</th><th class=\"number\">Checks</th><th class=\"number\">Comparisons</th>\
+         <th class=\"number\">Least p</th><th class=\"number\">Median of what would be noticed</th><th></th></tr>",
+    );
+    for (name, list) in report.groups() {
+        let verdicts: Vec<&Verdict> = list.iter().flat_map(|c| &c.verdicts).collect();
+        let mut resolutions: Vec<f64> = verdicts.iter().map(|v| v.resolution).collect();
+        resolutions.sort_by(f64::total_cmp);
+        let least = verdicts.iter().map(|v| v.comparison.p).fold(1.0, f64::min);
+        let failed = verdicts.iter().filter(|v| v.failure.is_some()).count();
+        let _ = write!(
+            table,
+            "<tr><td><a href=\"#{}\">{name}</a></td><td class=\"number\">{}</td><td class=\"number\">{}</td>\
+             <td class=\"number\">{}</td><td class=\"number\">{:.2} %</td><td>{}</td></tr>",
+            anchor(name),
+            list.len(),
+            verdicts.len(),
+            probability(least),
+            100.0 * resolutions[resolutions.len() / 2],
+            badge(failed)
+        );
+    }
+    table + "</table></div>"
+}
+
+fn badge(failed: usize) -> String {
+    match failed {
+        0 => "<span class=\"verdict pass\">pass</span>".to_owned(),
+        n => format!("<span class=\"verdict fail\">{n} failed</span>"),
+    }
+}
+
+fn article(checked: &Checked) -> String {
+    let check = &checked.check;
+    let failed = checked.verdicts.iter().filter(|v| v.failure.is_some()).count();
+    let mut text = format!(
+        "<article id=\"{}\"><header><h3>{}</h3>{}</header><p class=\"soft\">{}</p>",
+        check.slug(),
+        escaped(&check.name),
+        badge(failed),
+        escaped(&check.about)
+    );
+    text += &pictures(checked);
+    text += "<div class=\"scroll\"><table><tr><th>Rendered by</th><th></th><th class=\"number\">Must be</th><th class=\"number\">Is</th>\
+             <th class=\"number\">Deviation</th><th></th><th class=\"number\">Standard errors</th><th class=\"number\">p</th><th></th></tr>";
+    for verdict in &checked.verdicts {
+        text += &row(verdict);
+    }
+    text + "</table></div></article>"
+}
+
+fn pictures(checked: &Checked) -> String {
+    let check = &checked.check;
+    let white = white(&checked.renders[0]);
+    let mut text = String::from("<div class=\"pictures\">");
+    for (i, (renderer, renders)) in check.renderers.iter().zip(&checked.renders).enumerate() {
+        let other = match check.rows.first().map(|row| &row.target) {
+            Some(Target::Value(value, _)) if check.is_flat => Some(Other::Value(value * check.unit)),
+            _ if i > 0 => Some(Other::Pictures(&checked.renders[0])),
+            _ => None,
+        };
+        let name = renderer.name();
+        let _ = write!(
+            text,
+            "<figure><div class=\"pair\"><img alt=\"{name}\" src=\"{}\">",
+            tone_mapped(renders, white)
+        );
+        if let Some(other) = other {
+            let _ =
+                write!(text, "<img alt=\"difference of {name}\" src=\"{}\">", difference(renders, &other));
+        }
+        let _ = write!(text, "</div><figcaption>{name}</figcaption></figure>");
+    }
+    text + "</div>"
+}
+
+fn row(verdict: &Verdict) -> String {
+    let (m, e) = (&verdict.measured, &verdict.expected);
+    let half = quantile(0.05, (m.count.max(2) - 1) as f64) * m.error;
+    let deviation = if e.mean == 0.0 { f64::NAN } else { m.mean / e.mean - 1.0 };
+    let must = match (verdict.is_bound, e.error > 0.0) {
+        (true, _) => format!("≤ {}", number(e.mean)),
+        (_, true) => format!("{} <small>± {}</small>", number(e.mean), short(1.96 * e.error)),
+        _ => number(e.mean),
+    };
+    let said = match &verdict.failure {
+        None => "<span class=\"verdict pass\">pass</span>".to_owned(),
+        Some(reason) => format!("<span class=\"verdict fail\">{reason}</span>"),
+    };
+    format!(
+        "<tr><td>{}</td><td>{}</td><td class=\"number\">{must}</td><td class=\"number\">{} <small>± {}</small></td>\
+         <td class=\"number\">{}</td><td>{}</td><td class=\"number\">{:+.1}</td><td class=\"number\">{}</td><td>{said}</td></tr>",
+        short_name(verdict.renderer),
+        escaped(&verdict.what),
+        number(m.mean),
+        short(half),
+        if deviation.is_nan() { "–".to_owned() } else { format!("{:+.3} %", 100.0 * deviation) },
+        interval(verdict, half),
+        verdict.comparison.t,
+        probability(verdict.comparison.p)
+    )
+}
+
+fn short_name(renderer: Renderer) -> &'static str {
+    renderer.name()
+}
+
+/// The estimate's interval about the expected value, with what would have been noticed as a band: the drawing spans
+/// four times the band.
+fn interval(verdict: &Verdict, half: f64) -> String {
+    let [width, height] = INTERVAL;
+    let (m, e) = (&verdict.measured, &verdict.expected);
+    let noticed = (verdict.resolution * e.mean.abs()).max(1e-5 * e.mean.abs());
+    let scale = width / (4.0 * noticed);
+    let at = |v: f64| ((v - e.mean) * scale + 0.5 * width).clamp(2.0, width - 2.0);
+    let middle = 0.5 * height;
+    let class = if verdict.failure.is_some() { "interval off" } else { "interval" };
+    format!(
+        "<svg class=\"{class}\" width=\"{width}\" height=\"{height}\" role=\"img\" aria-label=\"interval\">\
+         <rect class=\"band\" x=\"{:.1}\" y=\"3\" width=\"{:.1}\" height=\"{}\" rx=\"2\"/>\
+         <line class=\"axis\" x1=\"{c}\" x2=\"{c}\" y1=\"1\" y2=\"{}\"/>\
+         <line class=\"whisker\" x1=\"{:.1}\" x2=\"{:.1}\" y1=\"{middle}\" y2=\"{middle}\"/>\
+         <circle class=\"dot\" cx=\"{:.1}\" cy=\"{middle}\" r=\"3\"/></svg>",
+        0.25 * width,
+        0.5 * width,
+        height - 6.0,
+        height - 1.0,
+        at(m.mean - half),
+        at(m.mean + half),
+        at(m.mean),
+        c = 0.5 * width
+    )
+}
+
+/// Six digits.
+fn number(value: f64) -> String {
+    match value.abs() {
+        0.0 => "0".to_owned(),
+        v if !(1e-3..1e6).contains(&v) => format!("{value:.4e}"),
+        v => {
+            let digits = (5 - v.log10().floor() as i32).max(0) as usize;
+            format!("{value:.digits$}")
+        }
+    }
+}
+
+/// Two digits.
+fn short(value: f64) -> String {
+    if value == 0.0 { "0".to_owned() } else { format!("{value:.1e}") }
+}
+
+fn probability(p: f64) -> String {
+    if p < 1e-3 { format!("{p:.0e}") } else { format!("{p:.3}") }
+}
+
+fn anchor(name: &str) -> String {
+    name.to_lowercase().replace(' ', "-")
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_six_digits_and_errors_two() {
+        assert_eq!(number(0.414_947_6), "0.414948");
+        assert_eq!(number(13_926.057_5), "13926.1");
+        assert_eq!(number(6.254_62e10), "6.2546e10");
+        assert_eq!(short(0.000_123), "1.2e-4");
+        assert_eq!(probability(0.5), "0.500");
+    }
+
+    #[test]
+    fn text_cannot_break_the_page() {
+        assert_eq!(escaped("a < b & c"), "a &lt; b &amp; c");
+    }
+}

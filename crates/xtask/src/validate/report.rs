@@ -1,0 +1,150 @@
+//! What a run found: on the terminal, as JSON, and as a page.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use serde_json::{Value, json};
+
+use super::check::{Check, Target, Verdict};
+use super::console::Picture;
+use super::page;
+
+/// A check, its pictures and what they said.
+pub struct Checked {
+    /// What was to be shown.
+    pub check: Check,
+    /// The pictures by renderer and seed.
+    pub renders: Vec<Vec<Picture>>,
+    /// The judgements.
+    pub verdicts: Vec<Verdict>,
+}
+
+/// All of a run.
+pub struct Report {
+    /// In the order of the checks.
+    pub checked: Vec<Checked>,
+    /// What was typed.
+    pub command: String,
+    /// How long it took.
+    pub seconds: f64,
+    /// Independent renders of each picture.
+    pub seeds: usize,
+    /// Probability of any false alarm.
+    pub family: f64,
+    /// Of the console.
+    pub version: String,
+}
+
+impl Report {
+    /// Comparisons that failed, with their checks.
+    pub fn failures(&self) -> impl Iterator<Item = (&Check, &Verdict)> {
+        self.verdicts().filter(|(_, verdict)| verdict.failure.is_some())
+    }
+
+    /// All comparisons.
+    pub fn verdicts(&self) -> impl Iterator<Item = (&Check, &Verdict)> {
+        self.checked.iter().flat_map(|c| c.verdicts.iter().map(move |verdict| (&c.check, verdict)))
+    }
+
+    /// The groups in their order, each with its checks.
+    pub fn groups(&self) -> Vec<(&'static str, Vec<&Checked>)> {
+        let mut groups: Vec<(&'static str, Vec<&Checked>)> = vec![];
+        for checked in &self.checked {
+            match groups.iter_mut().find(|(name, _)| *name == checked.check.group) {
+                Some((_, list)) => list.push(checked),
+                None => groups.push((checked.check.group, vec![checked])),
+            }
+        }
+        groups
+    }
+
+    /// Writes `report.html` and `report.json` into a folder.
+    pub fn write(&self, folder: &Path) -> Result<(), String> {
+        let write = |name: &str, text: String| {
+            let path = folder.join(name);
+            std::fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
+            println!("{}", path.display());
+            Ok::<(), String>(())
+        };
+        write("report.json", format!("{:#}\n", self.json()))?;
+        write("report.html", page::page(self))
+    }
+
+    /// Says on the terminal what failed, and a line for each group.
+    pub fn say(&self) {
+        for (check, verdict) in self.failures() {
+            println!("FAILED {}", sentence(check, verdict));
+        }
+        for (name, list) in self.groups() {
+            let verdicts: Vec<&Verdict> = list.iter().flat_map(|c| &c.verdicts).collect();
+            let failed = verdicts.iter().filter(|verdict| verdict.failure.is_some()).count();
+            let least = verdicts.iter().map(|verdict| verdict.comparison.p).fold(1.0, f64::min);
+            println!("{name:<28} {:>4} comparisons, {failed:>3} failed, least p {least:.1e}", verdicts.len());
+        }
+        println!("{:.0} s", self.seconds);
+    }
+
+    fn json(&self) -> Value {
+        let verdict = |v: &Verdict| {
+            json!({
+                "renderer": v.renderer.name(),
+                "what": v.what,
+                "expected": v.expected.mean,
+                "expected_standard_error": v.expected.error,
+                "at_most": v.is_bound,
+                "measured": v.measured.mean,
+                "standard_error": v.measured.error,
+                "renders": v.measured.count,
+                "t": v.comparison.t,
+                "degrees_of_freedom": v.comparison.freedom,
+                "p": v.comparison.p,
+                "threshold": v.threshold,
+                "resolution": v.resolution,
+                "failure": v.failure,
+            })
+        };
+        let check = |c: &Checked| {
+            json!({
+                "group": c.check.group,
+                "name": c.check.name,
+                "about": c.check.about,
+                "unit_cd_per_m2": c.check.unit,
+                "samples_per_pixel": c.check.samples,
+                "verdicts": c.verdicts.iter().map(verdict).collect::<Vec<_>>(),
+            })
+        };
+        json!({
+            "command": self.command,
+            "version": self.version,
+            "seconds": self.seconds,
+            "renders": self.seeds,
+            "family_false_alarm": self.family,
+            "comparisons": self.verdicts().count(),
+            "failures": self.failures().count(),
+            "checks": self.checked.iter().map(check).collect::<Vec<_>>(),
+        })
+    }
+}
+
+/// A judgement in words.
+fn sentence(check: &Check, verdict: &Verdict) -> String {
+    let mut text = format!("{}: {}, {}", check.group, check.name, verdict.renderer.name());
+    if !verdict.what.is_empty() {
+        let _ = write!(text, ", {}", verdict.what);
+    }
+    let (m, e) = (&verdict.measured, &verdict.expected);
+    let against = match check.rows.first().map(|row| &row.target) {
+        Some(Target::First(_)) => "the first renderer's",
+        _ if verdict.is_bound => "at most",
+        _ => "expected",
+    };
+    let reason = verdict.failure.as_deref().unwrap_or("agrees");
+    let (t, p) = (verdict.comparison.t, verdict.comparison.p);
+    let percent = 100.0 * (m.mean / e.mean - 1.0);
+    let _ = write!(
+        text,
+        ": {reason}: {:.6} ± {:.6}, {against} {:.6} ({percent:+.3} %), {t:+.1} standard errors, p = {p:.1e}",
+        m.mean, m.error, e.mean
+    );
+    text
+}
