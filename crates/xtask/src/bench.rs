@@ -1,12 +1,13 @@
 //! `cargo xtask bench`: measurements. Their numbers gate nothing; only ratios taken in one process do.
 
-use crate::{Outcome, bench_rays, process};
+use crate::{Outcome, bench_machine, bench_rays, process};
 
-/// `rays` races our ray kernel against Embree, `transport` the ways of rendering against each other; any other word
+/// `machine` measures how the console scales, `rays` races our ray kernel against Embree, `transport` the ways of rendering against each other; any other word
 /// is a crate whose benchmarks are run.
 pub fn run(arguments: &[String]) -> Outcome {
     match arguments.split_first() {
-        None => Err("usage: cargo xtask bench rays|transport|CRATE [ARGUMENTS]".into()),
+        None => Err("usage: cargo xtask bench machine|rays|transport|CRATE [ARGUMENTS]".into()),
+        Some((name, rest)) if name == "machine" => bench_machine::run(rest),
         Some((name, rest)) if name == "rays" => bench_rays::run(rest),
         Some((name, rest)) if name == "transport" => {
             let bench = ["bench", "--package", "indigo-render", "--bench", "transport", "--"];

@@ -4,6 +4,7 @@
 //! it, and everything here is checked by the same compiler, linter and tests.
 
 mod bench;
+mod bench_machine;
 mod bench_rays;
 mod documents;
 mod fuzz;
@@ -66,8 +67,8 @@ const COMMANDS: &[Command] = &[
     },
     Command {
         name: "bench",
-        arguments: "rays|transport|CRATE [ARGUMENTS]",
-        about: "benchmarks: rays against Embree, modes of rendering at equal time, or those of one crate",
+        arguments: "machine|rays|transport|CRATE [ARGUMENTS]",
+        about: "benchmarks: scaling with threads, triangles, pixels and so on, rays against Embree, modes of rendering at equal time, or those of one crate",
         run: bench::run,
     },
     Command {

@@ -31,7 +31,7 @@ pub fn all() -> Vec<Check> {
 }
 
 fn by_all_ways(name: &str, about: &str, scene: String) -> Check {
-    let check = Check::new(GROUP, name, about, scene).unit(stage::UNIT).by(ALL).effort(SAMPLES, 5e-2);
+    let check = Check::new(GROUP, name, about, scene).unit(stage::UNIT).by(ALL).effort(SAMPLES, 1e-1);
     check.row("picture", Quantity::Y, None, Target::First(0.0))
 }
 
@@ -56,7 +56,7 @@ fn room(materials: &[String], [floor, back, left, right]: [&str; 4], things: &[S
 }
 
 /// A wall of the room, on which a map is shown so many times along each side.
-fn wall(towards: [f64; 3], material: &str, times: f64) -> String {
+pub fn wall(towards: [f64; 3], material: &str, times: f64) -> String {
     let u = if towards[0].abs() > 0.5 { [0.0, 1.0, 0.0] } else { [1.0, 0.0, 0.0] };
     let v = cross(towards, u);
     let corner = |[a, b]: [f64; 2]| {
@@ -100,12 +100,19 @@ fn bumps() -> Check {
 }
 
 fn hills() -> Vec<u8> {
-    let height = |at: exr::math::Vec2<usize>| {
-        let [x, y] = [at.x(), at.y()].map(|c| (std::f64::consts::TAU * c as f64 / 16.0).sin());
-        let height = (0.5 + 0.25 * (x + y)) as f32;
-        (height, height, height)
+    exr_of(16, |x, y| {
+        let [x, y] = [x, y].map(|c| (std::f64::consts::TAU * c as f64 / 16.0).sin());
+        (0.5 + 0.25 * (x + y)) as f32
+    })
+}
+
+/// A grey square EXR file.
+pub fn exr_of(side: usize, value: impl Fn(usize, usize) -> f32 + Sync) -> Vec<u8> {
+    let pixel = |at: exr::math::Vec2<usize>| {
+        let value = value(at.x(), at.y());
+        (value, value, value)
     };
-    let image = Image::from_channels((16, 16), SpecificChannels::rgb(height));
+    let image = Image::from_channels((side, side), SpecificChannels::rgb(pixel));
     let mut bytes = std::io::Cursor::new(vec![]);
     image.write().to_buffered(&mut bytes).expect("memory takes every byte");
     bytes.into_inner()

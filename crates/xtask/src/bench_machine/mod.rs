@@ -1,0 +1,280 @@
+//! `cargo xtask bench machine`: how the release console scales on this machine, with threads, triangles, lamps, texels and
+//! pixels: samples and rays a second, seconds to read, build, start and develop, and memory.
+//!
+//! Seconds belong to a machine and to what else it does, so that they gate nothing: a run is compared with a named earlier
+//! one, ratios first. All figures are the console's own (`-ptest`), the median of a few runs.
+
+mod page;
+mod series;
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::Duration;
+
+use serde_json::{Value, json};
+
+use crate::validate::check::Renderer;
+use crate::validate::console::{Console, write_scene};
+use crate::{Outcome, process};
+use series::{Point, SERIES, Series};
+
+const USAGE: &str = "usage: cargo xtask bench machine [--name NAME] [--against RUN.json] [--only SERIES] [--repeat N] [--console PROGRAM]";
+/// Runs of each point, of which the median counts.
+const REPEAT: usize = 3;
+
+/// One figure of one point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    /// The name of the series.
+    pub series: String,
+    /// Where in the series.
+    pub x: f64,
+    /// What was measured.
+    pub name: String,
+    /// How much it is.
+    pub value: f64,
+}
+
+struct Options {
+    name: String,
+    against: Option<PathBuf>,
+    only: Option<String>,
+    repeat: usize,
+    console: Option<PathBuf>,
+}
+
+impl Options {
+    fn parse(arguments: &[String]) -> Result<Self, String> {
+        let mut options =
+            Self { name: "machine".into(), against: None, only: None, repeat: REPEAT, console: None };
+        let mut words = arguments.iter();
+        while let Some(word) = words.next() {
+            let value = words.next().ok_or(USAGE)?.clone();
+            match word.as_str() {
+                "--name" => options.name = value,
+                "--against" => options.against = Some(value.into()),
+                "--only" => options.only = Some(value),
+                "--repeat" => options.repeat = value.parse().ok().filter(|n| *n > 0).ok_or(USAGE)?,
+                "--console" => options.console = Some(value.into()),
+                _ => return Err(USAGE.into()),
+            }
+        }
+        Ok(options)
+    }
+}
+
+/// Runs it.
+///
+/// # Errors
+/// What could not be run, read or written.
+pub fn run(arguments: &[String]) -> Outcome {
+    let options = Options::parse(arguments)?;
+    let folder = process::target_dir().join("bench");
+    let console = Console::new(options.console.clone(), &folder, 1)?;
+    let earlier = options.against.as_deref().map(read).transpose()?;
+    let wanted = |series: &&Series| options.only.as_ref().is_none_or(|only| series.name == only);
+    let mut figures = vec![];
+    for series in SERIES.iter().filter(wanted) {
+        for point in (series.points)() {
+            println!("  {}, {}", series.name, point.x);
+            figures.extend(measure(&console, series, &point, options.repeat)?);
+        }
+    }
+    if figures.is_empty() {
+        return Err(format!("no series of that name; there are {}", names().join(", ")));
+    }
+    let machine = machine();
+    let write = |ending: &str, text: String| {
+        let path = folder.join(format!("{}.{ending}", options.name));
+        std::fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
+        println!("{}", path.display());
+        Ok::<(), String>(())
+    };
+    let run = json!({"name": options.name, "machine": machine, "figures": figures.iter().map(to_json).collect::<Vec<_>>()});
+    write("json", format!("{run:#}\n"))?;
+    write("html", page::page(&run, &figures, earlier.as_ref()))?;
+    say(&figures, earlier.as_ref());
+    Ok(())
+}
+
+fn names() -> Vec<&'static str> {
+    SERIES.iter().map(|series| series.name).collect()
+}
+
+fn to_json(figure: &Figure) -> Value {
+    json!({"series": figure.series, "x": figure.x, "figure": figure.name, "value": figure.value})
+}
+
+/// An earlier run: its name and figures.
+pub struct Earlier {
+    /// As it was called.
+    pub name: String,
+    /// Its machine, in words.
+    pub machine: String,
+    figures: Vec<Figure>,
+}
+
+impl Earlier {
+    /// What a figure was then.
+    pub fn value(&self, figure: &Figure) -> Option<f64> {
+        let is_same = |f: &&Figure| f.series == figure.series && f.x == figure.x && f.name == figure.name;
+        self.figures.iter().find(is_same).map(|f| f.value)
+    }
+}
+
+fn read(path: &Path) -> Result<Earlier, String> {
+    let fault = |why: &dyn std::fmt::Display| format!("{}: {why}", path.display());
+    let text = std::fs::read_to_string(path).map_err(|error| fault(&error))?;
+    let run: Value = serde_json::from_str(&text).map_err(|error| fault(&error))?;
+    let list = run["figures"].as_array().ok_or_else(|| fault(&"holds no figures"))?;
+    let text = |value: &Value| value.as_str().unwrap_or_default().to_owned();
+    let figure = |value: &Value| {
+        Some(Figure {
+            series: text(&value["series"]),
+            x: value["x"].as_f64()?,
+            name: text(&value["figure"]),
+            value: value["value"].as_f64()?,
+        })
+    };
+    let figures = list.iter().filter_map(figure).collect();
+    Ok(Earlier { name: text(&run["name"]), machine: in_words(&run["machine"]), figures })
+}
+
+/// Figures of a point: the median of each.
+fn measure(console: &Console, series: &Series, point: &Point, repeat: usize) -> Result<Vec<Figure>, String> {
+    let folder = console.folder.join(format!("{}-{}", series.name, point.x));
+    let scene = write_scene(&folder, &point.scene, &point.files, Renderer::Path)?;
+    let runs = (0..repeat).map(|_| once(console, &scene, point)).collect::<Result<Vec<_>, _>>()?;
+    let figure = |(i, name): (usize, &&str)| {
+        let mut values: Vec<f64> = runs.iter().map(|run| run[i]).collect();
+        values.sort_by(f64::total_cmp);
+        Figure {
+            series: series.name.to_owned(),
+            x: point.x,
+            name: (*name).to_owned(),
+            value: values[values.len() / 2],
+        }
+    };
+    let figures = FIGURES.iter().enumerate().map(figure);
+    Ok(figures.filter(|figure| series.figures.contains(&figure.name.as_str())).collect())
+}
+
+/// What is measured of each run, in this order.
+const FIGURES: &[&str] = &[
+    "samples_per_second",
+    "rays_per_second",
+    "read_s",
+    "build_s",
+    "start_s",
+    "first_pixel_s",
+    "develop_s",
+    "peak_memory_mb",
+];
+
+fn once(console: &Console, scene: &Path, point: &Point) -> Result<Vec<f64>, String> {
+    let fault = |why: &dyn std::fmt::Display| format!("{}: {why}", scene.display());
+    let mut child = Command::new(&console.program)
+        .arg(scene)
+        .args([
+            "-ptest",
+            "-json",
+            "-quiet",
+            "-t",
+            &point.threads.to_string(),
+            "-haltspp",
+            &point.samples.to_string(),
+        ])
+        .stdout(Stdio::piped())
+        .spawn()
+        .map_err(|error| fault(&error))?;
+    let mut peak = 0.0f64;
+    // Linux keeps the peak itself; it is read until the process has gone.
+    while child.try_wait().map_err(|error| fault(&error))?.is_none() {
+        peak = peak.max(peak_memory_mb(child.id()).unwrap_or(0.0));
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let output = child.wait_with_output().map_err(|error| fault(&error))?;
+    if !output.status.success() {
+        return Err(fault(&output.status));
+    }
+    let said: Value = serde_json::from_slice(&output.stdout).map_err(|error| fault(&error))?;
+    let of = |key: &str| said[key].as_f64().ok_or_else(|| fault(&format!("-ptest does not tell {key}")));
+    let (read, build, start) = (of("read")?, of("build")?, of("start")?);
+    let speeds = [of("samples_per_second")?, of("rays_per_second")?];
+    Ok([&speeds[..], &[read, build, start, read + build + start, of("develop")?, peak]].concat())
+}
+
+fn peak_memory_mb(process: u32) -> Option<f64> {
+    let status = std::fs::read_to_string(format!("/proc/{process}/status")).ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    let kilobytes: f64 = line.trim().trim_end_matches("kB").trim().parse().ok()?;
+    Some(kilobytes / 1024.0)
+}
+
+fn machine() -> Value {
+    let cpu = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let model = cpu
+        .lines()
+        .find_map(|line| line.strip_prefix("model name")?.split_once(':').map(|(_, name)| name.trim()));
+    let memory = std::fs::read_to_string("/proc/meminfo").unwrap_or_default();
+    let total = memory.lines().find_map(|line| {
+        line.strip_prefix("MemTotal:")?.trim().trim_end_matches("kB").trim().parse::<f64>().ok()
+    });
+    let commit = process::capture(&mut process::command("git", &["rev-parse", "--short", "HEAD"]));
+    json!({
+        "processor": model.unwrap_or(std::env::consts::ARCH),
+        "logical_cores": std::thread::available_parallelism().map_or(1, usize::from),
+        "memory_gb": total.map(|kb| (kb / 1024.0 / 1024.0 * 10.0).round() / 10.0),
+        "system": std::env::consts::OS,
+        "commit": commit.map_or_else(|_| String::new(), |c| String::from_utf8_lossy(&c).trim().to_owned()),
+    })
+}
+
+/// A machine in words.
+pub fn in_words(machine: &Value) -> String {
+    let text = |key: &str| machine[key].as_str().unwrap_or("unknown").to_owned();
+    let number = |key: &str| machine[key].as_f64().map_or_else(|| "?".to_owned(), |v| v.to_string());
+    format!(
+        "{}, {} logical cores, {} GB, {}, commit {}",
+        text("processor"),
+        number("logical_cores"),
+        number("memory_gb"),
+        text("system"),
+        text("commit")
+    )
+}
+
+fn say(figures: &[Figure], earlier: Option<&Earlier>) {
+    for figure in figures {
+        let ratio = earlier.and_then(|earlier| earlier.value(figure)).map(|then| figure.value / then);
+        let ratio = ratio.map_or_else(String::new, |ratio| format!("{ratio:>8.3} ×"));
+        println!(
+            "{ratio:>10} {:<12} {:>10} {:<20} {:>14.4}",
+            figure.series, figure.x, figure.name, figure.value
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn series_ask_for_figures_that_are_measured() {
+        for series in SERIES {
+            assert!(series.figures.iter().all(|name| FIGURES.contains(name)), "{}", series.name);
+        }
+    }
+
+    #[test]
+    fn an_earlier_run_is_found_by_series_place_and_figure() {
+        let figure = |x: f64, value: f64| Figure { series: "s".into(), x, name: "f".into(), value };
+        let earlier = Earlier {
+            name: String::new(),
+            machine: String::new(),
+            figures: vec![figure(1.0, 2.0), figure(2.0, 8.0)],
+        };
+        assert_eq!(earlier.value(&figure(2.0, 4.0)), Some(8.0));
+        assert_eq!(earlier.value(&figure(3.0, 4.0)), None);
+    }
+}
