@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::check::{Renderer, Target, Verdict};
+use super::check::{Target, Verdict};
 use super::images::{DEEPEST, Other, difference, tone_mapped, white};
 use super::report::{Checked, Report};
 use super::statistics::quantile;
@@ -101,8 +101,11 @@ fn article(checked: &Checked) -> String {
     text += &pictures(checked);
     text += "<div class=\"scroll\"><table><tr><th>Rendered by</th><th></th><th class=\"number\">Must be</th><th class=\"number\">Is</th>\
              <th class=\"number\">Deviation</th><th></th><th class=\"number\">Standard errors</th><th class=\"number\">p</th><th></th></tr>";
+    let mut last = None;
     for verdict in &checked.verdicts {
-        text += &row(verdict);
+        let name = if last == Some(verdict.renderer) { "" } else { verdict.renderer.name() };
+        text += &row(verdict, name);
+        last = Some(verdict.renderer);
     }
     text + "</table></div></article>"
 }
@@ -132,7 +135,7 @@ fn pictures(checked: &Checked) -> String {
     text + "</div>"
 }
 
-fn row(verdict: &Verdict) -> String {
+fn row(verdict: &Verdict, name: &str) -> String {
     let (m, e) = (&verdict.measured, &verdict.expected);
     let half = quantile(0.05, (m.count.max(2) - 1) as f64) * m.error;
     let deviation = if e.mean == 0.0 { f64::NAN } else { m.mean / e.mean - 1.0 };
@@ -148,19 +151,19 @@ fn row(verdict: &Verdict) -> String {
     format!(
         "<tr><td>{}</td><td>{}</td><td class=\"number\">{must}</td><td class=\"number\">{} <small>± {}</small></td>\
          <td class=\"number\">{}</td><td>{}</td><td class=\"number\">{:+.1}</td><td class=\"number\">{}</td><td>{said}</td></tr>",
-        short_name(verdict.renderer),
+        name,
         escaped(&verdict.what),
         number(m.mean),
         short(half),
-        if deviation.is_nan() { "–".to_owned() } else { format!("{:+.3} %", 100.0 * deviation) },
+        if deviation.is_nan() {
+            "–".to_owned()
+        } else {
+            format!("{:+.3} %", 100.0 * deviation).replace('-', "−")
+        },
         interval(verdict, half),
         verdict.comparison.t,
         probability(verdict.comparison.p)
     )
-}
-
-fn short_name(renderer: Renderer) -> &'static str {
-    renderer.name()
 }
 
 /// The estimate's interval about the expected value, with what would have been noticed as a band: the drawing spans

@@ -122,7 +122,7 @@ fn surfaces() -> Vec<Entry> {
          of the two directions is drawn as one in Indigo and separately in Mitsuba, which differs towards the rim.",
         in_even_light(Surface::Frosted(1.5, 200.0)),
     );
-    frosted.slack = 5e-3;
+    frosted.slack = 1e-3;
     vec![
         Entry::new("matt box", "Matt walls, a block and a lamp.", in_room(vec![block(matt(0.4))])),
         Entry {
@@ -199,7 +199,7 @@ fn lights() -> Vec<Entry> {
          next, and stretches the map's last column by 1/128.",
         mapped,
     );
-    environment.slack = 3e-3;
+    environment.slack = 1e-3;
     vec![
         Entry {
             effort: 2,
