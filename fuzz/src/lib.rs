@@ -1,9 +1,14 @@
 //! Fuzzing that needs no more than `cargo test`: sound files (the seeds) are damaged in many ways and fed to a reader.
 //!
 //! Each target is a test that calls [`fuzz`]. By default it tries a fixed number of cases, so that a test run is short
-//! and always the same; the variable `INDIGO_FUZZ_SECONDS` makes it go on for so long, and `INDIGO_FUZZ_CASE` tries one
-//! case alone. There is no coverage feedback: what finds faults is that the seeds reach every part of a format.
+//! and always the same; the variable `INDIGO_FUZZ_SECONDS` makes it go on for so long, `INDIGO_FUZZ_CASES` for so many
+//! cases, and `INDIGO_FUZZ_CASE` tries one case alone. There is no coverage feedback: what finds faults is that the seeds
+//! reach every part of a format.
+//!
+//! A target may neither panic nor hang nor take more than [`MEMORY`]; for the last, its binary has
+//! `indigo_testkit::allocation::Counting` as its allocator.
 
+use indigo_testkit::allocation::peak_of;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::time::{Duration, Instant};
 
@@ -15,36 +20,48 @@ pub use damage::{Rng, damage};
 const CASES: u64 = 1000;
 /// A reader that takes longer over a small file is taken to hang.
 const HANG: Duration = Duration::from_secs(20);
+/// The most that a reader may hold at once over a small file, in bytes: what a file of some kilobytes says of its own size
+/// must not be believed. A decoder's panic that its caller turns into an error may print a backtrace, for which the system
+/// reads some 80 MB of names.
+pub const MEMORY: usize = 160 << 20;
 /// The longest input that a failure prints, in bytes.
 const SHOWN: usize = 4096;
 
 /// Feeds damaged `seeds` to `target`, which panics where it finds a fault.
 ///
 /// # Panics
-/// With the target's own panic, after a report of the case's number and input; where a case takes too long; and
-/// without seeds.
+/// With the target's own panic, after a report of the case's number and input; where a case takes too long or too much
+/// memory; and without seeds.
 #[allow(clippy::print_stderr)]
 pub fn fuzz(seeds: &[Vec<u8>], target: impl Fn(&[u8])) {
     assert!(!seeds.is_empty(), "a fuzz target needs seeds");
     let try_case = |case: u64| {
         let input = input(seeds, case);
         let start = Instant::now();
-        if let Err(panic) = catch_unwind(AssertUnwindSafe(|| target(&input))) {
+        let (outcome, peak) = peak_of(|| catch_unwind(AssertUnwindSafe(|| target(&input))));
+        if let Err(panic) = outcome {
             eprintln!("INDIGO_FUZZ_CASE={case} fails with {}", describe(&input));
             resume_unwind(panic);
         }
         let took = start.elapsed();
         assert!(took < HANG, "INDIGO_FUZZ_CASE={case} took {took:?} with {}", describe(&input));
+        assert!(peak <= MEMORY, "INDIGO_FUZZ_CASE={case} held {peak} bytes with {}", describe(&input));
+        peak
     };
     if let Some(case) = variable("INDIGO_FUZZ_CASE") {
-        return try_case(case);
+        try_case(case);
+        return;
     }
     let end = variable("INDIGO_FUZZ_SECONDS").map(|seconds| Instant::now() + Duration::from_secs(seconds));
-    let mut case = 0;
-    while end.map_or(case < CASES, |end| Instant::now() < end) {
-        try_case(case);
+    let cases = variable("INDIGO_FUZZ_CASES").unwrap_or(CASES);
+    let (mut case, mut most) = (0, 0);
+    while end.map_or(case < cases, |end| Instant::now() < end) {
+        most = try_case(case).max(most);
         case += 1;
     }
+    let thread = std::thread::current();
+    let target = thread.name().unwrap_or("fuzzing");
+    eprintln!("{target}: {case} cases, each with {:.1} MiB at most", most as f64 / f64::from(1 << 20));
 }
 
 /// The input of a case: the seeds as they are come first.
@@ -70,12 +87,22 @@ fn describe(input: &[u8]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use indigo_testkit::allocation::Counting;
+
+    #[global_allocator]
+    static ALLOCATOR: Counting = Counting;
 
     #[test]
     fn a_fault_is_found() {
         let seeds = [b"width=7 height=9".to_vec()];
         let found = catch_unwind(|| fuzz(&seeds, |input| assert!(!input.ends_with(b"0"))));
         assert!(found.is_err());
+    }
+
+    #[test]
+    fn greed_is_found() {
+        let greedy = |input: &[u8]| drop(Vec::<u8>::with_capacity(MEMORY + input.len()));
+        assert!(catch_unwind(|| fuzz(&[b"a file".to_vec()], greedy)).is_err());
     }
 
     #[test]

@@ -5,7 +5,11 @@ use indigo_film::{FilmRecord, FilmSize, FilmState, LayerKind, Run, SavedFilm, To
 use indigo_fuzz::fuzz;
 use indigo_net::ledger::Ledger;
 use indigo_net::proto;
+use indigo_testkit::allocation::Counting;
 use prost::Message;
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
 
 const SEED: u64 = 7;
 

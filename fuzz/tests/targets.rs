@@ -8,6 +8,10 @@ use indigo_fuzz::fuzz;
 use indigo_igs::pack::{MaterialPacks, Pack, PackLimits, PackWriter};
 use indigo_light::Profile;
 use indigo_scene::{LoadOptions, Loaded, load};
+use indigo_testkit::allocation::Counting;
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
 
 /// The files of a folder below `seeds`, in order of their names.
 fn seeds(folder: &str) -> Vec<Vec<u8>> {

@@ -73,8 +73,8 @@ const COMMANDS: &[Command] = &[
     },
     Command {
         name: "fuzz",
-        arguments: "[SECONDS]",
-        about: "feed damaged files to every reader, SECONDS each target (default 60)",
+        arguments: "[SECONDS | --cases N] [TARGET]",
+        about: "feed damaged files to every reader, SECONDS (60) or N cases each target",
         run: fuzz::run,
     },
     Command {
