@@ -73,7 +73,8 @@ fn be_master() {
         upload_period: Duration::from_secs_f64(PERIOD_S),
     };
     let (program, page) = (PROGRAM.to_owned(), None);
-    let setup = Setup { scene, film: film(0, 0, 0), program, key: Some(key.clone()), port: 0, page };
+    let setup =
+        Setup { scene, film: film(0, 0, 0), program, key: Some(key.clone()), own_seed: None, port: 0, page };
     let master = Master::start(setup, Arc::new(|_| {})).expect("a free port");
     let port = master.address().port().to_string();
     let start = cpu_time::ProcessTime::now();

@@ -105,7 +105,10 @@ mod tests {
         let found = runtime.block_on(masters());
         drop(announcement);
         match found {
-            Ok(found) if found.is_empty() => println!("skipped: this machine passes no multicast on"),
+            // Others may be there, too, and looking ends soon after the first was found.
+            Ok(found) if found.iter().all(|(_, other)| *other != port) => {
+                println!("skipped: this machine passes no multicast on, or another master answers first");
+            }
             Ok(found) => assert!(found.contains(&(Ipv4Addr::LOCALHOST.into(), port)), "{found:?}"),
             Err(error) => println!("skipped: {error}"),
         }

@@ -253,7 +253,8 @@ impl fmt::Display for Event {
             Self::Repeated { slave } => write!(f, "{slave} has sent again what is in the film already"),
             Self::Refused { peer, reason, more: 0 } => write!(f, "{peer} was refused: {reason}"),
             Self::Refused { peer, reason, more } => {
-                write!(f, "{peer} was refused: {reason} ({more} more refusals of this address before)")
+                let what = if *more == 1 { "refusal" } else { "refusals" };
+                write!(f, "{peer} was refused: {reason} ({more} more {what} of this address before)")
             }
             Self::Searching => f.write_str("Looking for a master in the local network"),
             Self::Connected { master, scene } => write!(f, "Connected to {master}, which renders {scene}"),

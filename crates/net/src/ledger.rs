@@ -27,8 +27,8 @@ pub struct Receipt {
     pub merged_end: u64,
     /// The same of the film on the disk.
     pub durable_end: u64,
-    /// Uploads of one generation are saved together.
-    pub generation: u64,
+    /// Uploads of one generation are saved together. That of a repetition is not known: a save may have begun between.
+    pub generation: Option<u64>,
     /// Whether it was there already.
     pub is_repeated: bool,
     /// Units before the upload that never came, and will not.
@@ -118,7 +118,8 @@ impl Ledger {
     }
 
     fn receipt(&self, merged_end: u64, durable_end: u64, is_repeated: bool, missing: u64) -> Receipt {
-        Receipt { merged_end, durable_end, generation: self.generation, is_repeated, missing }
+        let generation = (!is_repeated).then_some(self.generation);
+        Receipt { merged_end, durable_end, generation, is_repeated, missing }
     }
 
     /// A copy of the film, to be saved: what is added from now on belongs to the next one.

@@ -7,18 +7,24 @@ pub const PROTOCOL: u32 = 1;
 /// The port of the manual.
 pub const PORT: u16 = 7777;
 
-/// The most bytes of a piece of a scene or a parcel. Large enough that its overhead is lost in it, small enough that
-/// reports need not wait long behind it.
-pub const PIECE: usize = 256 << 10;
+/// The most bytes of a piece of a scene or a parcel. Large enough that its overhead is lost in it, small enough that it comes
+/// within [`SILENCE`] at a thousand bytes a second, and that reports need not wait long behind it.
+pub const PIECE: usize = 32 << 10;
 /// The most bytes of a message: a piece, or a reply with a settings file, and something for the numbers round them.
 pub const MESSAGE: usize = 1 << 20;
 /// The most connections at a time.
 pub const CONNECTIONS: usize = 256;
 /// The most calls at a time over a connection: a slave makes one after another, and reports meanwhile.
 pub const CALLS: u32 = 8;
-/// The most uploads that are received at a time; others wait, for their turn or until they lose patience. So many films,
-/// compressed, are what a master keeps in memory beside its own.
+/// The most connections to the status page at a time.
+pub const VISITORS: usize = 64;
+/// A connection to the status page over which nothing comes or goes for so long ends.
+pub const PAGE_SILENCE: Duration = Duration::from_secs(10);
+/// So many films, as large as compressed ones can be, are what a master has room for beside its own. Those that are received
+/// at a time share it by their real lengths, so that many slow ones have their turn together; others wait.
 pub const UPLOADS: usize = 8;
+/// What the room for uploads is counted in, in bytes.
+pub const ROOM: u64 = 4 << 10;
 /// The most slaves that are remembered, gone ones too.
 pub const SLAVES: usize = 1024;
 /// The longest name of a machine that is shown, in characters.

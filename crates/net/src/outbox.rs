@@ -48,15 +48,26 @@ impl Outbox {
         self.len() == 0
     }
 
+    /// The unit behind the last one that is held.
+    pub fn end(&self) -> u64 {
+        let kept = self.kept.iter().map(|kept| &kept.film);
+        self.waiting.iter().chain(kept).map(end).max().unwrap_or(0)
+    }
+
+    /// Samples of the films that the master has not got, or that are in no file of its.
+    pub fn samples(&self) -> u64 {
+        self.waiting_samples() + self.kept.iter().map(|kept| samples(&kept.film)).sum::<u64>()
+    }
+
     /// Samples of the films that the master has not got.
     pub fn waiting_samples(&self) -> u64 {
         self.waiting.iter().map(samples).sum()
     }
 
     /// The master has added the next film to its own.
-    pub fn received(&mut self, generation: u64) {
+    pub fn received(&mut self, generation: Option<u64>) {
         if let Some(film) = self.waiting.pop_front() {
-            self.keep(Kept { film, generation: Some(generation) });
+            self.keep(Kept { film, generation });
         }
     }
 

@@ -25,6 +25,8 @@ use tonic::{Code, Status};
 const PROGRAM: &str = "Indigo of this test";
 const SLAVE: [u8; 16] = [7; 16];
 const SEED: u64 = 42;
+/// What the master renders itself.
+const OWN_SEED: u64 = 43;
 /// More than a piece, so that the scene comes in several.
 const PACK: usize = 1_000_000;
 
@@ -73,6 +75,7 @@ impl Bench {
             film: film(0, 0),
             program: PROGRAM.to_owned(),
             key: key.clone(),
+            own_seed: Some(OWN_SEED),
             port: 0,
             page: Some((([127, 0, 0, 1], 0).into(), "no_such_picture.png".into())),
         };
@@ -308,12 +311,27 @@ fn lengths_are_kept_to() {
 #[test]
 fn who_is_silent_hinders_nobody() {
     let bench = Bench::new(Some(Key::random().unwrap()));
-    let silent: Vec<TcpStream> = (0..32)
+    let silent: Vec<TcpStream> = (0..200)
         .map(|_| TcpStream::connect(("127.0.0.1", bench.master.address().port())).expect("it listens"))
         .collect();
     let (mut client, _) = bench.join();
     assert!(bench.send(&mut client, parcel(&film(0, 5))).is_ok());
     drop(silent);
+}
+
+#[test]
+fn the_masters_own_seed_is_no_slaves() {
+    let bench = Bench::new(None);
+    let status =
+        bench.join_as(&mut bench.connect(), JoinRequest { seed: OWN_SEED, ..request() }).unwrap_err();
+    assert_eq!(status.code(), Code::AlreadyExists);
+    assert!(status.message().contains("the master renders with seed 43 itself"), "{status}");
+    // Another platform's program of the same version is welcome, and another version is not.
+    let program = format!("{PROGRAM}, of another platform");
+    assert!(bench.join_as(&mut bench.connect(), JoinRequest { program, ..request() }).is_ok());
+    let program = format!("{PROGRAM} 2");
+    let status = bench.join_as(&mut bench.connect(), JoinRequest { program, ..request() }).unwrap_err();
+    assert_eq!(status.code(), Code::FailedPrecondition);
 }
 
 #[test]
@@ -326,12 +344,25 @@ fn slaves_are_told_when_the_render_ends() {
     let reply = bench.runtime.block_on(client.report(report)).unwrap().into_inner();
     assert_eq!(reply.order(), crate::proto::report_reply::Order::Finish);
     assert!(bench.send(&mut client, parcel(&film(0, 5))).is_ok(), "the last of it is taken");
+    assert!(!bench.master.has_all(), "it may have more");
+    let done = ReportRequest {
+        slave: Bytes::copy_from_slice(&SLAVE),
+        state: crate::proto::report_request::State::Done.into(),
+        ..ReportRequest::default()
+    };
+    let reply = bench.runtime.block_on(client.report(done.clone())).unwrap().into_inner();
+    assert!(bench.master.has_all() && !bench.master.is_deserted());
+    assert_eq!(reply.durable_end, 0, "it is not saved");
+    bench.master.saved(bench.master.record());
+    assert_eq!(bench.runtime.block_on(client.report(done)).unwrap().into_inner().durable_end, 5);
+    // It may come back as long as it has not said good-bye; new ones may not.
+    let _again = bench.join();
+    let new = JoinRequest { slave: Bytes::from_static(&[9; 16]), seed: 1, ..request() };
+    assert_eq!(bench.join_as(&mut bench.connect(), new).unwrap_err().code(), Code::Unavailable);
     let leave = crate::proto::LeaveRequest { slave: Bytes::copy_from_slice(&SLAVE) };
     bench.runtime.block_on(client.leave(leave)).unwrap();
     assert!(bench.master.is_deserted());
-    let new = JoinRequest { slave: Bytes::from_static(&[9; 16]), seed: 1, ..request() };
-    assert_eq!(bench.join_as(&mut bench.connect(), new).unwrap_err().code(), Code::Unavailable);
-    bench.join();
+    assert_eq!(bench.join_as(&mut bench.connect(), request()).unwrap_err().code(), Code::Unavailable);
 }
 
 #[test]
@@ -371,4 +402,18 @@ fn the_status_page_shows_and_is_of_this_machine() {
     assert!(page.contains("<!doctype html>") && page.contains("content-security-policy: default-src 'none'"));
     assert!(ask(&bench, "/picture.png", "localhost").starts_with("HTTP/1.1 404"), "none has been saved");
     assert!(ask(&bench, "/status.json", "evil.example").starts_with("HTTP/1.1 403"));
+}
+
+/// More connections than there are places, over which nothing is said: the page comes back when they have run out of time.
+#[test]
+fn who_is_silent_leaves_the_status_page_to_others() {
+    let bench = Bench::new(None);
+    let page = bench.master.page().expect("there is one");
+    let silent: Vec<TcpStream> =
+        (0..crate::limits::VISITORS + 8).map(|_| TcpStream::connect(page).expect("it listens")).collect();
+    assert!(ask(&bench, "/status.json", "localhost").starts_with("HTTP/1.1 200"));
+    for mut stream in silent {
+        assert_eq!(stream.read(&mut [0; 1]).ok(), Some(0), "closed by the master");
+    }
+    bench.join();
 }

@@ -48,6 +48,18 @@ impl Role {
     }
 }
 
+/// Why a handshake has failed, in words that help: `otherwise` where it is for want of the key.
+pub fn unproved(error: &std::io::Error, otherwise: &str) -> String {
+    let cause = error.get_ref().and_then(|cause| cause.downcast_ref::<Error>());
+    match cause {
+        Some(Error::InvalidMessage(_)) => {
+            "it does not encrypt what it says, as who has the key does".to_owned()
+        }
+        Some(Error::InvalidCertificate(_) | Error::AlertReceived(_)) => otherwise.to_owned(),
+        _ => format!("{otherwise}: {error}"),
+    }
+}
+
 /// What a side shows.
 struct Shown {
     certificate: CertificateDer<'static>,

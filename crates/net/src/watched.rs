@@ -14,12 +14,40 @@ pub struct Watched<S> {
     stream: S,
     patience: Duration,
     alarm: Pin<Box<Sleep>>,
+    /// Whether something that could be written counts, too.
+    hears_writes: bool,
 }
 
 impl<S> Watched<S> {
     /// From now on.
     pub fn new(stream: S, patience: Duration) -> Self {
-        Self { stream, patience, alarm: Box::pin(sleep(patience)) }
+        Self { stream, patience, alarm: Box::pin(sleep(patience)), hears_writes: false }
+    }
+
+    /// The same for a peer that may listen for long without a word: it must take something within the time, or say it.
+    pub fn both_ways(stream: S, patience: Duration) -> Self {
+        Self { hears_writes: true, ..Self::new(stream, patience) }
+    }
+
+    fn rewind(&mut self) {
+        let next = Instant::now() + self.patience;
+        self.alarm.as_mut().reset(next);
+    }
+
+    /// What becomes of a call that has to wait.
+    fn pending<T>(&mut self, cx: &mut Context<'_>) -> Poll<io::Result<T>> {
+        ready!(self.alarm.as_mut().poll(cx));
+        Poll::Ready(Err(io::Error::new(ErrorKind::TimedOut, "the other side is silent")))
+    }
+
+    fn written(&mut self, cx: &mut Context<'_>, written: Poll<io::Result<usize>>) -> Poll<io::Result<usize>> {
+        if self.hears_writes {
+            if written.is_pending() {
+                return self.pending(cx);
+            }
+            self.rewind();
+        }
+        written
     }
 }
 
@@ -31,21 +59,18 @@ impl<S: AsyncRead + Unpin> AsyncRead for Watched<S> {
     ) -> Poll<io::Result<()>> {
         match Pin::new(&mut self.stream).poll_read(cx, buf) {
             Poll::Ready(read) => {
-                let next = Instant::now() + self.patience;
-                self.alarm.as_mut().reset(next);
+                self.rewind();
                 Poll::Ready(read)
             }
-            Poll::Pending => {
-                ready!(self.alarm.as_mut().poll(cx));
-                Poll::Ready(Err(io::Error::new(ErrorKind::TimedOut, "the other side is silent")))
-            }
+            Poll::Pending => self.pending(cx),
         }
     }
 }
 
 impl<S: AsyncWrite + Unpin> AsyncWrite for Watched<S> {
     fn poll_write(mut self: Pin<&mut Self>, cx: &mut Context<'_>, buf: &[u8]) -> Poll<io::Result<usize>> {
-        Pin::new(&mut self.stream).poll_write(cx, buf)
+        let written = Pin::new(&mut self.stream).poll_write(cx, buf);
+        self.written(cx, written)
     }
 
     fn poll_write_vectored(
@@ -53,7 +78,8 @@ impl<S: AsyncWrite + Unpin> AsyncWrite for Watched<S> {
         cx: &mut Context<'_>,
         bufs: &[io::IoSlice<'_>],
     ) -> Poll<io::Result<usize>> {
-        Pin::new(&mut self.stream).poll_write_vectored(cx, bufs)
+        let written = Pin::new(&mut self.stream).poll_write_vectored(cx, bufs);
+        self.written(cx, written)
     }
 
     fn is_write_vectored(&self) -> bool {

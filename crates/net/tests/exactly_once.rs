@@ -61,6 +61,7 @@ enum Happening {
     Upload,
     UploadIsLost,
     AnswerIsLost,
+    UploadIsRepeated,
     Report,
     Reconnect,
     SaveBegins,
@@ -72,7 +73,7 @@ enum Happening {
 
 use Happening::{
     AnswerIsLost, MasterDies, Reconnect, Render, Report, SaveBegins, SaveEnds, SaveFails, SlaveDies, Upload,
-    UploadIsLost,
+    UploadIsLost, UploadIsRepeated,
 };
 
 impl World {
@@ -102,6 +103,19 @@ impl World {
                 } else {
                     slave.is_connected = false;
                 }
+            }
+            // An upload that was still being added when its slave came back, and that comes once more.
+            UploadIsRepeated if slave.is_connected => {
+                slave.drain();
+                let Some(film) = slave.outbox.next() else { return };
+                self.master.take(slave.seed as u64, film).expect("a sound upload");
+                if self.copy.is_none() {
+                    self.copy = Some(self.master.copy());
+                }
+                let receipt = self.master.take(slave.seed as u64, film).expect("a sound upload");
+                assert!(receipt.is_repeated);
+                slave.outbox.saved(receipt.durable_end);
+                slave.outbox.received(receipt.generation);
             }
             UploadIsLost => {
                 slave.drain();
@@ -167,6 +181,7 @@ fn happening() -> impl Strategy<Value = Happening> {
         6 => Just(Upload),
         1 => Just(UploadIsLost),
         1 => Just(AnswerIsLost),
+        1 => Just(UploadIsRepeated),
         2 => Just(Report),
         3 => Just(Reconnect),
         2 => Just(SaveBegins),

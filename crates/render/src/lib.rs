@@ -11,7 +11,7 @@ mod error_estimate;
 mod error_meter;
 pub mod first_hits;
 mod gate;
-mod memory;
+pub mod memory;
 mod options;
 pub mod output;
 pub mod pool;

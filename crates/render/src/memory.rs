@@ -1,7 +1,10 @@
 //! How much memory a render will surely need, and whether it is there.
 
+use crate::session::SessionError;
 use indigo_film::{FilmSize, LayerKind, MasterFilm};
 use indigo_imaging::Diffraction;
+use indigo_scene::Scene;
+use indigo_transport::driver::Driver;
 use std::path::{Path, PathBuf};
 
 /// What developing a film holds for each internal pixel: XYZ and alpha in single precision, and whether there
@@ -20,6 +23,26 @@ pub(crate) fn needed(
     let diffraction = if is_diffracted { Diffraction::bytes_needed(size) } else { 0 };
     let developed = DEVELOPED_PIXEL * size.internal_pixels() as u64;
     (films + 1) * MasterFilm::bytes_needed(size, kinds) + developed + diffraction
+}
+
+/// Whether a master has room for the film of a scene, a copy that it saves, and `beside` bytes more.
+///
+/// # Errors
+/// [`SessionError::Memory`], with what it takes.
+pub fn check_master(scene: &Scene, beside: u64) -> Result<(), SessionError> {
+    let driver = Driver::new(scene, 0);
+    let kinds = driver.layers().iter().map(|layer| layer.0);
+    let size = scene.film.size;
+    let needed = needed(size, kinds, 1, scene.picture.diffraction.is_some()) + beside;
+    check(size, needed, available())
+}
+
+/// Better an answer at the start than an end in the midst of rendering.
+pub(crate) fn check(size: FilmSize, needed: u64, available: Option<u64>) -> Result<(), SessionError> {
+    match available {
+        Some(available) if needed > available => Err(SessionError::Memory { size, needed, available }),
+        _ => Ok(()),
+    }
 }
 
 /// Bytes that the system can still give, where it says so: only Linux does, for itself and for the group of

@@ -165,7 +165,7 @@ impl Session {
         let (size, count) = (scene.film.size, if estimates_error { 3 } else { 1 });
         let kinds = driver.layers().iter().map(|l| l.0);
         let is_diffracted = scene.picture.diffraction.is_some();
-        check_memory(size, memory::needed(size, kinds, count, is_diffracted), memory::available())?;
+        memory::check(size, memory::needed(size, kinds, count, is_diffracted), memory::available())?;
         let films = (0..count).map(|_| MasterFilm::new(size, driver.layers()));
         let films = films.collect::<Result<Vec<_>, _>>()?;
         let threads = options.threads.clamp(1, driver.most_workers());
@@ -351,14 +351,6 @@ impl Session {
     }
 }
 
-/// Better an answer at the start than an end in the midst of rendering.
-fn check_memory(size: FilmSize, needed: u64, available: Option<u64>) -> Result<(), SessionError> {
-    match available {
-        Some(available) if needed > available => Err(SessionError::Memory { size, needed, available }),
-        _ => Ok(()),
-    }
-}
-
 /// The unit after the last one that a halting condition leaves to do.
 fn unit_limit(driver: &Driver, halt: &Halt, first: u64, samples_before: u64) -> u64 {
     halt.samples_per_pixel.map_or(u64::MAX, |passes| {
@@ -384,9 +376,9 @@ mod tests {
     #[test]
     fn a_picture_beyond_the_memory_is_refused_with_its_numbers() {
         let size = FilmSize::new(32_768, 8_192, 2).expect("a size");
-        assert!(check_memory(size, 5 << 30, None).is_ok());
-        assert!(check_memory(size, 5 << 30, Some(5 << 30)).is_ok());
-        let error = check_memory(size, 5 << 30, Some(1 << 30)).expect_err("too little");
+        assert!(memory::check(size, 5 << 30, None).is_ok());
+        assert!(memory::check(size, 5 << 30, Some(5 << 30)).is_ok());
+        let error = memory::check(size, 5 << 30, Some(1 << 30)).expect_err("too little");
         let said = error.to_string();
         for part in ["width 32768", "height 8192", "super_sample_factor 2", "5120 MiB", "1024 MiB"] {
             assert!(said.contains(part), "{part}: {said}");

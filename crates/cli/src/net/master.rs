@@ -14,6 +14,7 @@ use indigo_net::ledger::Refusal;
 use indigo_net::limits::PORT;
 use indigo_net::master::{Master, OwnStatus, SceneParcel, Setup};
 use indigo_render::disk::read_limited;
+use indigo_render::memory::check_master;
 use indigo_render::saved::blank_film;
 use indigo_render::{Event as SessionEvent, Halt, HaltReason, Options, Progress, Session};
 use indigo_scene::Scene;
@@ -28,6 +29,8 @@ const PULSE: Duration = Duration::from_millis(50);
 const GRACE: Duration = Duration::from_secs(20);
 /// How long they have in all, if they do.
 const LONGEST_GRACE: Duration = Duration::from_mins(5);
+/// How long they have to hear that everything is saved: some reports.
+const FAREWELL: Duration = Duration::from_secs(5);
 /// Settings that are each machine's own.
 const OWN: [&str; 2] = ["num_threads", "auto_choose_num_threads"];
 
@@ -56,6 +59,9 @@ pub fn master(
         Err(status) => return status,
     };
     let Prepared { scene, options, job, .. } = &prepared;
+    if let Err(error) = check_master(scene, parcel.pack.len() as u64) {
+        return fail_session(&error, console);
+    }
     let film = match saved {
         Some(saved) => {
             describe_film(arguments.resume.as_deref(), Some(&saved), console);
@@ -63,6 +69,9 @@ pub fn master(
         }
         None => blank_film(scene, &job.version),
     };
+    // Not the last of the film's, which may be that of a slave who is still at work. Slaves draw theirs from so many that this
+    // is none of them, and is refused to those who ask for it.
+    let own_seed = arguments.seed.unwrap_or(0);
     let is_open = key.is_some();
     let (sink, events) = events();
     let setup = Setup {
@@ -70,6 +79,7 @@ pub fn master(
         film,
         program: program(),
         key,
+        own_seed: (arguments.network == Some(Role::WorkingMaster)).then_some(own_seed),
         port: arguments.port.unwrap_or(PORT),
         page: arguments.status.map(|address| (address, job.paths.png.clone())),
     };
@@ -80,7 +90,7 @@ pub fn master(
     say_where(&master, is_open, console);
     say_page(&master, console);
     let own = match arguments.network {
-        Some(Role::WorkingMaster) => match Own::start(scene, options, arguments, &master) {
+        Some(Role::WorkingMaster) => match Own::start(scene, options, own_seed, &master) {
             Ok(own) => Some(own),
             Err(error) => return fail_session(&error, console),
         },
@@ -137,12 +147,9 @@ impl Own {
     fn start(
         scene: &Arc<Scene>,
         options: &Options,
-        arguments: &Arguments,
+        seed: u64,
         master: &Master,
     ) -> Result<Self, indigo_render::SessionError> {
-        // Not the last of the film's, which may be that of a slave who is still at work. Slaves draw theirs from so many
-        // that this is none of them.
-        let seed = arguments.seed.unwrap_or(0);
         // The film's halting conditions are not the session's.
         let options = Options { seed, halt: Halt::default(), ..options.clone() };
         let mut session = Session::start_beside(Arc::clone(scene), &options, &master.record())?;
@@ -235,9 +242,7 @@ impl Run<'_> {
                 }
             }
         }
-        for event in self.events.try_iter() {
-            console.event(&event);
-        }
+        self.tell_events(console);
     }
 
     fn save(&mut self, console: &mut Console) {
@@ -301,34 +306,74 @@ impl Run<'_> {
         if let Err(refusal) = ended {
             complain(&refusal, console);
         }
-        let start = Instant::now();
-        // Those that send may need longer than those that are silent, which a slave that was killed is.
-        let mut samples = self.master.status().samples;
-        let mut last_news = start;
-        while !self.master.is_deserted() && last_news.elapsed() < GRACE && start.elapsed() < LONGEST_GRACE {
-            if let Ok(event) = self.events.recv_timeout(PULSE) {
-                console.event(&event);
-            }
-            let status = self.master.status();
-            let news = status.samples.wrapping_add(status.bytes_received);
-            if news != samples {
-                (samples, last_news) = (news, Instant::now());
-            }
-        }
+        self.wait_for_rest(console);
         if let Some(record) = self.saver.wait_for_last(console) {
             self.master.saved(record);
         }
-        for event in self.events.try_iter() {
-            console.event(&event);
-        }
+        self.tell_events(console);
         let progress = self.progress();
         console.last_progress(&progress);
         if let Some(HaltReason::Failed(message)) = failure {
             console.error(message);
         }
-        self.master.close();
+        let job = self.saver.job();
         let film = self.master.copy();
-        let is_saved = say_saved(&self.saver.job().save(&film), console);
+        let mut saved = job.save(&film);
+        if let Some(record) = film.record
+            && saved.written.contains(&job.paths.igi())
+        {
+            let runs = record.runs.clone();
+            self.master.saved(record);
+            self.see_off(console);
+            self.master.close();
+            // Somebody who was given up has come after all.
+            let film = self.master.copy();
+            if film.record.as_ref().is_some_and(|record| record.runs != runs) {
+                saved = job.save(&film);
+            }
+        }
+        let is_saved = say_saved(&saved, console);
         if is_saved && failure.is_none() { RENDERED } else { FAILED }
+    }
+
+    /// Waits for what slaves have left. Those that send may need longer than those that are silent, which a slave that was
+    /// killed is.
+    fn wait_for_rest(&self, console: &mut Console) {
+        if !self.master.has_all() {
+            let slaves = count(self.master.status().present, "slave");
+            console.say(&format!(
+                "Waiting for the last of {slaves}; Ctrl-C again ends at once, and saves nothing more"
+            ));
+        }
+        let start = Instant::now();
+        let (mut seen, mut last_news) = (0, start);
+        while !self.master.has_all() && last_news.elapsed() < GRACE && start.elapsed() < LONGEST_GRACE {
+            if let Ok(event) = self.events.recv_timeout(PULSE) {
+                console.event(&event);
+            }
+            let status = self.master.status();
+            let news = status.samples.wrapping_add(status.bytes_received);
+            if news != seen {
+                (seen, last_news) = (news, Instant::now());
+            }
+        }
+    }
+
+    /// Waits until slaves have heard that all they sent is in a file, and have left. Who does not hear of it would only send
+    /// it once more, to a master that goes on with that file.
+    fn see_off(&self, console: &mut Console) {
+        let start = Instant::now();
+        while !self.master.is_deserted() && start.elapsed() < FAREWELL {
+            if let Ok(event) = self.events.recv_timeout(PULSE) {
+                console.event(&event);
+            }
+        }
+        self.tell_events(console);
+    }
+
+    fn tell_events(&self, console: &mut Console) {
+        for event in self.events.try_iter() {
+            console.event(&event);
+        }
     }
 }

@@ -15,7 +15,7 @@ use indigo_net::event::{Event, Sink};
 use indigo_net::key::Key;
 use indigo_render::disk::read_limited;
 use std::fs::OpenOptions;
-use std::io::Write as _;
+use std::io::{ErrorKind, Write as _};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
@@ -49,6 +49,13 @@ pub fn make_key(path: &Path, console: &mut Console) -> u8 {
                 path.display()
             ));
             RENDERED
+        }
+        Err(error) if error.kind() == ErrorKind::AlreadyExists => {
+            let path = path.display();
+            console.error(&format!(
+                "{path} is there already, and a key is never written over: give another name"
+            ));
+            FAILED
         }
         Err(error) => {
             console.error(&format!("cannot write {}: {error}", path.display()));

@@ -7,8 +7,8 @@ use std::process::Command;
 use std::time::{Duration, Instant};
 
 /// Uploads and saves follow each other quickly, so that a short story has many.
-pub const HASTE: &str = "<logging>false</logging><image_save_period>0.25</image_save_period>\
-                         <frame_upload_period>0.4</frame_upload_period><save_igi>true</save_igi>";
+pub const HASTE: &str =
+    "<logging>false</logging><frame_upload_period>0.4</frame_upload_period><save_igi>true</save_igi>";
 
 /// Where a master and its slaves work.
 pub struct Farm {
@@ -21,7 +21,13 @@ pub struct Farm {
 impl Farm {
     /// With a key, and a scene of these settings.
     pub fn new(settings: &str) -> Self {
-        let bench = Workbench::new(&format!("{HASTE}{settings}"));
+        Self::saving_each(0.25, settings)
+    }
+
+    /// The same with so many seconds from one save to the next.
+    pub fn saving_each(seconds: f64, settings: &str) -> Self {
+        let period = format!("<image_save_period>{seconds}</image_save_period>");
+        let bench = Workbench::new(&format!("{HASTE}{period}{settings}"));
         let made = bench.run(&["--make-key", "key"]);
         assert_eq!(made.status, Some(0), "{made:?}");
         Self { bench, master: None, port: 0, starts: 0 }
@@ -135,7 +141,12 @@ pub fn kill(running: &mut Running) {
 
 /// As Ctrl-C does.
 pub fn interrupt(running: &Running) {
+    signal(running, "-INT");
+}
+
+/// Sends a signal.
+pub fn signal(running: &Running, signal: &str) {
     let sent =
-        Command::new("kill").args(["-INT", &running.0.id().to_string()]).status().expect("the command kill");
+        Command::new("kill").args([signal, &running.0.id().to_string()]).status().expect("the command kill");
     assert!(sent.success());
 }

@@ -45,7 +45,7 @@ fn a_master_that_is_started_anew_knows_what_its_film_holds() {
     ledger.take(7, &film(7, 0, 5)).unwrap();
     let saved = ledger.copy();
     let receipt = ledger.take(7, &film(7, 5, 6)).unwrap();
-    assert_eq!((receipt.durable_end, receipt.generation), (0, 1));
+    assert_eq!((receipt.durable_end, receipt.generation), (0, Some(1)));
     ledger.saved(saved.record.clone().unwrap());
     assert_eq!(ledger.ends(7), (6, 5));
     let mut again = Ledger::new(saved).unwrap();

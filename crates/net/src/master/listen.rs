@@ -2,7 +2,9 @@
 
 use super::Shared;
 use crate::limits::{CONNECTIONS, HANDSHAKE, SILENCE};
+use crate::tls;
 use crate::watched::Watched;
+use std::collections::VecDeque;
 use std::io;
 use std::net::SocketAddr;
 use std::pin::Pin;
@@ -12,12 +14,13 @@ use std::time::Duration;
 use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
 use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::mpsc::{Receiver, Sender, channel};
-use tokio::sync::{OwnedSemaphorePermit, Semaphore};
+use tokio::sync::{OwnedSemaphorePermit, Semaphore, oneshot};
 use tokio::time::{sleep, timeout};
 use tokio_rustls::TlsAcceptor;
 use tonic::transport::server::Connected;
 
-/// The most connections whose proofs are still to come: strangers fill these, not the places of slaves.
+/// The most connections whose proofs are still to come: strangers fill these, not the places of slaves. When there is one
+/// more the oldest makes room, since a slave's proof takes milliseconds: whoever says nothing keeps nobody out.
 const STRANGERS: usize = 64;
 /// How long to wait where the system gives no connection, for want of file handles, say.
 const PAUSE: Duration = Duration::from_millis(100);
@@ -61,9 +64,9 @@ async fn accept_all(
     shared: Arc<Shared>,
     give: Sender<io::Result<Connection>>,
 ) {
-    let strangers = Arc::new(Semaphore::new(STRANGERS));
+    let mut strangers: VecDeque<oneshot::Sender<()>> = VecDeque::new();
     let places = Arc::new(Semaphore::new(CONNECTIONS));
-    while let Ok(stranger) = Arc::clone(&strangers).acquire_owned().await {
+    loop {
         let accepted = tokio::select! {
             accepted = listener.accept() => accepted,
             () = give.closed() => return,
@@ -72,11 +75,22 @@ async fn accept_all(
             sleep(PAUSE).await;
             continue;
         };
+        // An address of IPv4 as people know it, not as a listener of both families tells it.
+        let peer = SocketAddr::new(peer.ip().to_canonical(), peer.port());
+        strangers.retain(|stranger| !stranger.is_closed());
+        if strangers.len() >= STRANGERS {
+            // Dropping it tells.
+            strangers.pop_front();
+        }
+        let (stranger, crowded_out) = oneshot::channel();
+        strangers.push_back(stranger);
         let (tls, shared, give, places) =
             (tls.clone(), Arc::clone(&shared), give.clone(), Arc::clone(&places));
         tokio::spawn(async move {
-            let introduced = introduce(tcp, tls).await;
-            drop(stranger);
+            let introduced = tokio::select! {
+                introduced = introduce(tcp, tls) => introduced,
+                _ = crowded_out => Err(io::Error::other("others came while it proved nothing")),
+            };
             let stream = match introduced {
                 Ok(stream) => stream,
                 Err(error) => return shared.refused(peer, &error.to_string()),
@@ -98,7 +112,9 @@ async fn introduce(tcp: TcpStream, tls: Option<TlsAcceptor>) -> io::Result<Box<d
     let Some(tls) = tls else { return Ok(Box::new(tcp)) };
     match timeout(HANDSHAKE, tls.accept(tcp)).await {
         Ok(Ok(stream)) => Ok(Box::new(stream)),
-        Ok(Err(error)) => Err(io::Error::other(format!("it has not proved that it has the key: {error}"))),
+        Ok(Err(error)) => {
+            Err(io::Error::other(tls::unproved(&error, "it has not proved that it has the key")))
+        }
         Err(_) => Err(io::Error::other("it has not proved in time that it has the key")),
     }
 }

@@ -12,7 +12,7 @@ use crate::discovery::Announcement;
 use crate::event::{Event, Sink};
 use crate::key::Key;
 use crate::ledger::{Ledger, Receipt, Refusal};
-use crate::limits::{CALLS, KEEP_ALIVE, MESSAGE, SILENCE, UPLOADS, parcel_bytes};
+use crate::limits::{CALLS, KEEP_ALIVE, MESSAGE, ROOM, SILENCE, UPLOADS, parcel_bytes};
 use crate::page::{self, View};
 use crate::proto::farm_server::FarmServer;
 use crate::{NetError, tls};
@@ -83,6 +83,8 @@ pub struct Setup {
     pub program: String,
     /// The shared key; without one only this machine can connect.
     pub key: Option<Key>,
+    /// The random sequence that the master renders itself, if it does: no slave's.
+    pub own_seed: Option<u64>,
     /// The port; 0 takes any that is free.
     pub port: u16,
     /// Where the status page is, if there is one, and the picture that it shows.
@@ -100,7 +102,9 @@ struct Shared {
     refusals: Mutex<Refusals>,
     /// Bytes of the largest parcel that can be one.
     parcel_limit: u64,
+    /// Room for parcels, in units of [`ROOM`].
     uploads: Semaphore,
+    own_seed: Option<u64>,
     own: Mutex<Option<OwnStatus>>,
     is_ending: AtomicBool,
     /// Uploads that are being received or added.
@@ -163,7 +167,7 @@ impl Master {
     /// # Errors
     /// Where the port is taken, or the system refuses.
     pub fn start(setup: Setup, sink: Sink) -> Result<Self, NetError> {
-        let Setup { scene, film, program, key, port, page } = setup;
+        let Setup { scene, film, program, key, own_seed, port, page } = setup;
         let film_bytes = MasterFilm::bytes_needed(film.film.size, film.film.layers.iter().map(|l| l.kind));
         let shared = Arc::new(Shared {
             pack_hash: *blake3::hash(&scene.pack).as_bytes(),
@@ -173,7 +177,8 @@ impl Master {
             program,
             roster: Mutex::default(),
             refusals: Mutex::default(),
-            uploads: Semaphore::new(UPLOADS),
+            uploads: Semaphore::new((UPLOADS as u64 * parcel_bytes(film_bytes)).div_ceil(ROOM) as usize),
+            own_seed,
             own: Mutex::default(),
             is_ending: AtomicBool::new(false),
             busy: AtomicU64::new(0),
@@ -250,9 +255,14 @@ impl Master {
         Status::of(&self.shared)
     }
 
-    /// Asks all slaves for the last of what they have, after which they leave.
+    /// Asks all slaves for the last of what they have. They leave when [`saved`](Self::saved) has told that it is in a file.
     pub fn begin_end(&self) {
         self.shared.is_ending.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether all that slaves have is in the film.
+    pub fn has_all(&self) -> bool {
+        self.shared.busy.load(Ordering::Relaxed) == 0 && !self.shared.roster().is_at_work()
     }
 
     /// Whether nobody is there any more, and nothing on its way.
@@ -340,7 +350,7 @@ fn show(
     let listener = runtime.block_on(page::listen(address)).map_err(failed)?;
     let address = listener.local_addr().map_err(failed)?;
     let (asked, told) = (Arc::clone(shared), Arc::clone(shared));
-    let view = View { status: Arc::new(move || Status::of(&asked)), picture };
+    let view = View { status: Arc::new(move || Status::of(&asked)), picture, read: Arc::default() };
     runtime.spawn(async move {
         if let Err(error) = page::serve(listener, view).await {
             told.tell(Event::Trouble(format!("the status page has ended: {error}")));

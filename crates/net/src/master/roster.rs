@@ -15,6 +15,8 @@ pub enum Presence {
     Loading,
     /// It renders.
     Rendering,
+    /// It has sent all there is, and waits until that is in a file.
+    Done,
     /// It has said good-bye.
     Left,
     /// It is gone without good-bye.
@@ -24,7 +26,7 @@ pub enum Presence {
 impl Presence {
     /// Whether it takes part.
     pub fn is_there(self) -> bool {
-        matches!(self, Self::Loading | Self::Rendering)
+        matches!(self, Self::Loading | Self::Rendering | Self::Done)
     }
 
     /// In a word.
@@ -32,6 +34,7 @@ impl Presence {
         match self {
             Self::Loading => "loading",
             Self::Rendering => "rendering",
+            Self::Done => "done",
             Self::Left => "left",
             Self::Lost => "lost",
         }
@@ -154,9 +157,9 @@ impl Roster {
         Some(slave)
     }
 
-    /// Whether a slave has been there.
-    pub fn knows(&self, id: &SlaveId) -> bool {
-        self.slaves.contains_key(id)
+    /// Whether a slave has been there and may have something left to send.
+    pub fn expects(&self, id: &SlaveId) -> bool {
+        self.slaves.get(id).is_some_and(|slave| slave.presence != Presence::Left)
     }
 
     /// The connection from an address has ended: the name of the slave that is gone by that, if one is.
@@ -190,6 +193,11 @@ impl Roster {
         self.slaves.values().filter(|slave| slave.presence.is_there()).count()
     }
 
+    /// Whether somebody is there who may have something left to send.
+    pub fn is_at_work(&self) -> bool {
+        self.slaves.values().any(|slave| matches!(slave.presence, Presence::Loading | Presence::Rendering))
+    }
+
     /// What those that are there render, by their own account.
     pub fn samples_per_second(&self) -> f64 {
         self.slaves.values().map(|slave| slave.samples_per_second).sum()
@@ -208,6 +216,8 @@ fn shown(name: &str) -> String {
 pub struct Refusals {
     by_address: HashMap<IpAddr, Told>,
     total: u64,
+    /// Refusals of all addresses together that were told in the minute that began then.
+    minute: Option<(Instant, u32)>,
 }
 
 #[derive(Debug)]
@@ -226,20 +236,35 @@ const LONGEST_PAUSE: Duration = Duration::from_mins(10);
 const SHORTEST_PAUSE: Duration = Duration::from_secs(1);
 /// Addresses that are remembered.
 const ADDRESSES: usize = 1024;
+/// The most refusals that are told in a minute, however many addresses they come from.
+const TOLD_A_MINUTE: u32 = 20;
+
+/// What counts as one address: of IPv6 whoever has one has 2^64.
+fn household(peer: IpAddr) -> IpAddr {
+    match peer.to_canonical() {
+        IpAddr::V6(v6) => IpAddr::V6((v6.to_bits() >> 64 << 64).into()),
+        v4 => v4,
+    }
+}
 
 impl Refusals {
     /// Counts one; if it is to be told, how many were not before it.
     pub fn add(&mut self, peer: IpAddr, now: Instant) -> Option<u64> {
         self.total += 1;
+        let peer = household(peer);
+        let minute = self.minute.filter(|(since, _)| now < *since + Duration::from_mins(1));
+        let (since, in_minute) = minute.unwrap_or((now, 0));
+        let is_crowded = in_minute >= TOLD_A_MINUTE;
         if self.by_address.len() >= ADDRESSES && !self.by_address.contains_key(&peer) {
             self.by_address.clear();
         }
         let told =
             self.by_address.entry(peer).or_insert(Told { untold: 0, next: now, pause: SHORTEST_PAUSE });
-        if now < told.next {
+        if now < told.next || is_crowded {
             told.untold += 1;
             return None;
         }
+        self.minute = Some((since, in_minute + 1));
         // Who has been quiet for long starts anew.
         let is_quiet = now.saturating_duration_since(told.next) > told.pause;
         told.pause = if is_quiet { SHORTEST_PAUSE } else { (told.pause * 2).min(LONGEST_PAUSE) };
@@ -335,6 +360,13 @@ mod tests {
             .collect::<Vec<_>>();
         assert!(told.len() < 20, "{}", told.len());
         assert!(told.iter().sum::<u64>() + told.len() as u64 <= 36_000 && refusals.total() == 36_000);
-        assert_eq!(refusals.add(peer(2).ip(), start), Some(0), "others are told of all the same");
+        let later = start + Duration::from_hours(2);
+        assert_eq!(refusals.add(peer(2).ip(), later), Some(0), "others are told of all the same");
+        let strangers = (0..4000u32).filter_map(|n| refusals.add(IpAddr::from(n.to_be_bytes()), later));
+        assert!(strangers.count() <= 20, "not all of many addresses");
+        let of_v6 = |n: u16| IpAddr::from([0x2001, 0xdb8, 0, 0, 0, 0, 0, n]);
+        let much_later = later + Duration::from_hours(1);
+        assert_eq!(refusals.add(of_v6(1), much_later), Some(0));
+        assert_eq!(refusals.add(of_v6(2), much_later), None, "of the same house");
     }
 }

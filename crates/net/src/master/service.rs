@@ -5,7 +5,7 @@ use super::roster::{Introduction, Presence, SlaveId};
 use super::{Shared, lock};
 use crate::event::Event;
 use crate::ledger::{Receipt, Refusal, run_of};
-use crate::limits::{PIECE, PROTOCOL, REPORTS, SILENCE};
+use crate::limits::{PIECE, PROTOCOL, REPORTS, ROOM, SILENCE};
 use crate::proto::farm_server::Farm;
 use crate::proto::report_reply::Order;
 use crate::proto::report_request::State;
@@ -49,6 +49,11 @@ impl Service {
 /// The caller's address.
 fn peer_of<T>(request: &Request<T>) -> SocketAddr {
     request.extensions().get::<Peer>().map_or((Ipv4Addr::UNSPECIFIED, 0).into(), |peer| peer.0)
+}
+
+/// Name and version of a program, without its platform: the same samples come from all.
+fn version(program: &str) -> &str {
+    program.split(',').next().unwrap_or_default()
 }
 
 /// A slave's name for itself.
@@ -96,7 +101,7 @@ impl Farm for Service {
         let peer = peer_of(&request);
         let JoinRequest { protocol, program, slave, seed, name, threads } = request.into_inner();
         let shared = &self.shared;
-        if protocol != PROTOCOL || program != shared.program {
+        if protocol != PROTOCOL || version(&program) != version(&shared.program) {
             let ours = &shared.program;
             let what = format!(
                 "the master is \"{ours}\" (protocol {PROTOCOL}), and the slave is \"{}\" (protocol {protocol}): \
@@ -107,8 +112,15 @@ impl Farm for Service {
         }
         let id = slave_id(&slave).map_err(|status| self.refuse(peer, status))?;
         // Who has something left to send may come back for that.
-        if shared.is_ending.load(Ordering::Relaxed) && !shared.roster().knows(&id) {
+        if shared.is_ending.load(Ordering::Relaxed) && !shared.roster().expects(&id) {
             return Err(Status::unavailable("the render is about to end"));
+        }
+        if shared.own_seed == Some(seed) {
+            let what = format!(
+                "the master renders with seed {seed} itself, and the same samples would come twice; give the slave another \
+                 -seed, or none"
+            );
+            return Err(self.refuse(peer, Status::already_exists(what)));
         }
         let introduction = Introduction { name: &name, peer, seed, threads };
         let joined = shared.roster().join(id, introduction, Instant::now()).map(|slave| slave.name.clone());
@@ -212,6 +224,7 @@ impl Farm for Service {
             slave.presence = match report.state() {
                 State::Loading => Presence::Loading,
                 State::Rendering => Presence::Rendering,
+                State::Done => Presence::Done,
             };
             let rate = report.samples_per_second;
             slave.samples_per_second = if rate.is_finite() { rate.max(0.0) } else { 0.0 };
@@ -250,7 +263,9 @@ impl Service {
             let what = format!("an upload of {} bytes is more than a film takes, {limit}", start.bytes);
             return Err(Status::resource_exhausted(what));
         }
-        let _turn = shared.uploads.acquire().await.map_err(failed)?;
+        // Not more than there is, as the length is within the limit.
+        let room = u32::try_from(start.bytes.div_ceil(ROOM)).unwrap_or(u32::MAX);
+        let _room = shared.uploads.acquire_many(room).await.map_err(failed)?;
         let mut parcel = Vec::with_capacity(start.bytes as usize);
         while let Some(part) = next(&mut stream).await? {
             let Part::Data(data) = part else {

@@ -4,6 +4,7 @@
 //! a name of this machine: no page of the web can read it by giving its own name this machine's address.
 
 mod text;
+mod visitors;
 
 use crate::master::Status;
 use axum::Router;
@@ -16,11 +17,13 @@ use axum::http::{HeaderValue, StatusCode};
 use axum::middleware::{Next, from_fn_with_state};
 use axum::response::{IntoResponse, Response};
 use axum::routing::get;
+use bytes::Bytes;
 use std::net::{IpAddr, SocketAddr};
 use std::path::PathBuf;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::UNIX_EPOCH;
 use tokio::net::TcpListener;
+use visitors::Door;
 
 /// The largest picture that is shown, in bytes.
 const LARGEST_PICTURE: u64 = 256 << 20;
@@ -32,9 +35,26 @@ pub struct View {
     pub status: Arc<dyn Fn() -> Status + Send + Sync>,
     /// Where the picture is saved.
     pub picture: PathBuf,
+    /// The picture as it was read last, with its version: all who look share it.
+    pub read: Arc<Mutex<(u128, Bytes)>>,
 }
 
 impl View {
+    /// The picture as it was saved last, if there is one of a size that is shown.
+    fn picture(&self) -> Option<Bytes> {
+        let saved = std::fs::metadata(&self.picture).ok()?;
+        let version = saved.modified().ok()?.duration_since(UNIX_EPOCH).ok()?.as_nanos();
+        let mut read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
+        if read.0 != version || read.1.is_empty() {
+            *read = (0, Bytes::new());
+            if !(1..=LARGEST_PICTURE).contains(&saved.len()) {
+                return None;
+            }
+            *read = (version, std::fs::read(&self.picture).ok()?.into());
+        }
+        Some(read.1.clone())
+    }
+
     /// Tells one picture from another: when it was saved, in milliseconds; 0 if there is none.
     fn picture_version(&self) -> u64 {
         let saved = std::fs::metadata(&self.picture).ok().filter(|meta| meta.len() > 0);
@@ -59,7 +79,7 @@ pub async fn serve(listener: TcpListener, view: View) -> std::io::Result<()> {
         router = router.route(path, get(move || async move { ([(CONTENT_TYPE, kind)], content) }));
     }
     let router = router.layer(from_fn_with_state(is_local, guard)).with_state(view);
-    axum::serve(listener, router).await
+    axum::serve(Door::new(listener), router).await
 }
 
 /// Sees to it that nobody else's page gets what this one shows.
@@ -100,12 +120,7 @@ async fn metrics(State(view): State<View>) -> Response {
 
 /// The picture as it was saved last.
 async fn picture(State(view): State<View>) -> Response {
-    let read = tokio::task::spawn_blocking(move || {
-        let is_small =
-            std::fs::metadata(&view.picture).is_ok_and(|meta| (1..=LARGEST_PICTURE).contains(&meta.len()));
-        if is_small { std::fs::read(&view.picture).ok() } else { None }
-    });
-    match read.await {
+    match tokio::task::spawn_blocking(move || view.picture()).await {
         Ok(Some(bytes)) => ([(CONTENT_TYPE, "image/png")], Body::from(bytes)).into_response(),
         _ => (StatusCode::NOT_FOUND, "no picture has been saved yet").into_response(),
     }

@@ -43,7 +43,7 @@ function cell(row, text, kind) {
 
 function showSlave(body, slave, most) {
   const row = body.insertRow();
-  const isThere = slave.state === "loading" || slave.state === "rendering";
+  const isThere = ["loading", "rendering", "done"].includes(slave.state);
   row.className = isThere ? slave.state : "gone " + slave.state;
   const name = cell(row, slave.name);
   const address = document.createElement("span");

@@ -18,7 +18,7 @@ use tokio_rustls::TlsConnector;
 use tonic::transport::{Channel, Endpoint};
 
 /// Bytes that may wait in the system to be sent: on a slow network reports would else stand behind minutes of an upload.
-const SEND_BUFFER: u32 = 256 << 10;
+const SEND_BUFFER: u32 = 64 << 10;
 
 /// How masters are reached.
 #[derive(Clone)]
@@ -34,7 +34,15 @@ pub fn host_and_port(given: &str) -> Option<(String, u16)> {
         _ => (given, PORT),
     };
     let host = host.strip_prefix('[').and_then(|h| h.strip_suffix(']')).unwrap_or(host);
-    (!host.is_empty() && port > 0).then(|| (host.to_owned(), port))
+    let is_name = !host.is_empty() && host.chars().all(|c| c.is_alphanumeric() || "-._".contains(c));
+    // Behind % stands the interface of an address that is of one network alone.
+    let is_address = host.split('%').next().is_some_and(|host| host.parse::<IpAddr>().is_ok());
+    ((is_name || is_address) && port > 0).then(|| (host.to_owned(), port))
+}
+
+/// Host and port as a user gives them.
+pub fn written(host: &str, port: u16) -> String {
+    if host.contains(':') { format!("[{host}]:{port}") } else { format!("{host}:{port}") }
 }
 
 impl Connector {
@@ -115,8 +123,9 @@ async fn open_address(address: SocketAddr, tls: Option<&Arc<ClientConfig>>) -> i
     let Some(config) = tls else { return Ok(Box::new(tcp)) };
     let name = ServerName::try_from(tls::SERVER_NAME).map_err(io::Error::other)?;
     let proved = TlsConnector::from(Arc::clone(config)).connect(name, tcp).await;
-    let stream = proved
-        .map_err(|error| io::Error::other(format!("it has not proved that it has the same key: {error}")))?;
+    let stream = proved.map_err(|error| {
+        io::Error::other(tls::unproved(&error, "it has not proved that it has the same key"))
+    })?;
     Ok(Box::new(stream))
 }
 
@@ -132,7 +141,22 @@ mod tests {
         assert_eq!(of("::1"), Some(("::1".into(), PORT)));
         assert_eq!(of("[::1]:9"), Some(("::1".into(), 9)));
         assert_eq!(of("[fe80::2]"), Some(("fe80::2".into(), PORT)));
-        for bad in ["", ":1", "lust:", "lust:x", "lust:0", "lust:70000", "[::1]:"] {
+        assert_eq!(of("fe80::2%eth0"), Some(("fe80::2%eth0".into(), PORT)));
+        assert_eq!(written("::1", 9), "[::1]:9");
+        assert_eq!(written("lust", 9), "lust:9");
+        for bad in [
+            "",
+            ":1",
+            "lust:",
+            "lust:x",
+            "lust:0",
+            "lust:70000",
+            "[::1]:",
+            "a:b:c",
+            "[::1",
+            "foo bar",
+            "http://lust",
+        ] {
             assert_eq!(of(bad), None, "{bad}");
         }
     }

@@ -135,18 +135,25 @@ async fn live(mut life: Life) -> Result<(), String> {
     let mut pause = FIRST_PAUSE;
     let mut failures = 0u64;
     let mut alone = Duration::ZERO;
+    let mut has_left = true;
     while !life.is_stopped() {
         let mut reached = false;
         let outcome = life.visit(&mut reached).await;
         if reached {
             (pause, failures, alone) = (FIRST_PAUSE, 0, Duration::ZERO);
         }
+        has_left = matches!(outcome, Outcome::Stopped | Outcome::Finished);
         let (reason, wait) = match outcome {
             Outcome::Stopped => break,
-            Outcome::Broken(message) => return Err(message),
+            Outcome::Broken(message) => {
+                life.lose(false, "the renderer has failed").await;
+                return Err(message);
+            }
             Outcome::Finished => {
                 life.work = None;
                 life.tell(Event::Finished);
+                // Another render has other samples, unless they were asked for.
+                life.begin_anew()?;
                 (None, FIRST_PAUSE)
             }
             Outcome::Refused(reason) => (Some(reason), AFTER_REFUSAL),
@@ -166,6 +173,6 @@ async fn live(mut life: Life) -> Result<(), String> {
             life.rest();
         }
     }
-    life.lose();
+    life.lose(has_left, "there is no master to send them to, or to say that it has saved them").await;
     Ok(())
 }

@@ -1,13 +1,14 @@
 //! One connection to a master, from joining to good-bye.
 
-use super::connect::Connector;
+use super::connect::{Connector, written};
 use super::fetch::{self, SceneFiles};
 use super::work::Work;
 use super::{Loader, Options};
 use crate::discovery;
 use crate::event::{Event, Sink};
+use crate::key::{KeyError, random_bytes};
 use crate::ledger::run_of;
-use crate::limits::{ANSWER, PIECE, PROTOCOL, UPLOAD};
+use crate::limits::{ANSWER, PIECE, PROTOCOL, SILENCE, UPLOAD};
 use crate::proto::farm_client::FarmClient;
 use crate::proto::report_reply::Order;
 use crate::proto::report_request::State;
@@ -34,6 +35,9 @@ use tonic::{Code, Status};
 const REPORTS: [f64; 2] = [0.1, 10.0];
 /// The same of uploads: as quick as makes sense, and a year.
 const UPLOADS: [f64; 2] = [0.01, 365.0 * 86_400.0];
+
+/// Time between reports at the end of a render, when the master waits for all its slaves.
+const WHILE_ENDING: Duration = Duration::from_millis(250);
 
 /// A time that a master has asked for, within bounds.
 fn period(seconds: f64, [shortest, longest]: [f64; 2]) -> Duration {
@@ -102,6 +106,19 @@ async fn answer<T>(call: impl Future<Output = Result<tonic::Response<T>, Status>
 }
 
 impl Life {
+    /// Becomes another slave, with a random sequence of its own, unless that was chosen.
+    ///
+    /// # Errors
+    /// Where the system gives no random numbers, in words.
+    pub fn begin_anew(&mut self) -> Result<(), String> {
+        let words = |error: KeyError| error.to_string();
+        self.id = random_bytes().map_err(words)?;
+        if self.options.seed.is_none() {
+            self.seed = u64::from_le_bytes(random_bytes().map_err(words)?);
+        }
+        Ok(())
+    }
+
     /// Whether it is to stop.
     pub fn is_stopped(&self) -> bool {
         *self.stopped.borrow()
@@ -127,12 +144,21 @@ impl Life {
         }
     }
 
-    /// Tells what is lost at the end.
-    pub fn lose(&mut self) {
-        let Some(work) = self.work.take() else { return };
-        let samples = work.outbox.waiting_samples();
+    /// Ends what it renders, and tells what is lost by that. Without a good-bye nobody knows what of it the master has saved.
+    pub async fn lose(&mut self, has_left: bool, reason: &'static str) {
+        let Some(mut work) = self.work.take() else { return };
+        if !work.engine.has_ended()
+            && let Some(film) = work.engine.end().await
+        {
+            work.outbox.push(film);
+        }
+        let samples = if has_left { work.outbox.waiting_samples() } else { work.outbox.samples() };
+        self.tell_lost(samples, reason);
+    }
+
+    fn tell_lost(&self, samples: u64, reason: &'static str) {
         if samples > 0 {
-            self.tell(Event::LostSamples { samples, reason: "there is no master to send them to" });
+            self.tell(Event::LostSamples { samples, reason });
         }
     }
 
@@ -177,7 +203,12 @@ impl Life {
             name: name.clone(),
             threads: u32::try_from(*threads).unwrap_or(u32::MAX),
         };
-        let reply = answer(client.join(request)).await?;
+        let reply = answer(client.join(request)).await.map_err(|outcome| match outcome {
+            Outcome::Lost(why) if self.options.key.is_none() => Outcome::Lost(format!(
+                "{why}; if it has a key, this slave needs the same one (--key-file FILE)"
+            )),
+            outcome => outcome,
+        })?;
         self.tell(Event::Connected { master, scene: reply.scene.clone() });
         Ok((client, reply))
     }
@@ -186,8 +217,9 @@ impl Life {
     async fn find(&self) -> Result<(Client, String), String> {
         if let Some((host, port)) = &self.options.master {
             let client = self.connector.connect(host, *port).await;
-            let client = client.map_err(|why| format!("there is no master at {host}:{port}: {why}"))?;
-            return Ok((client, format!("{host}:{port}")));
+            let place = written(host, *port);
+            let client = client.map_err(|why| format!("no master is reached at {place}: {why}"))?;
+            return Ok((client, place));
         }
         let found = discovery::masters().await;
         let found =
@@ -214,41 +246,38 @@ impl Life {
             ..FilmRecord::default()
         };
         if self.work.as_ref().is_some_and(|work| !work.record.differences(&wanted).is_empty()) {
-            // What the master of another scene could not use.
-            self.lose();
+            self.lose(false, "the master has another scene now, and may not have saved them").await;
         }
+        let Options { threads, program, .. } = &self.options;
         let work = match &mut self.work {
-            Some(work) => work,
+            Some(work) => {
+                let goes_on = work.go_on(*threads, self.seed, reply.merged_end, program);
+                if goes_on.map_err(Outcome::Broken)? {
+                    (self.sink)(Event::Rendering { scene: reply.scene.clone(), threads: *threads });
+                }
+                work
+            }
             none => {
                 let scene = load(&self.options, &self.loader, &self.sink, client, self.id, reply).await?;
-                let program = &self.options.program;
                 let differences = blank_record(&scene, program).differences(&wanted);
                 if !differences.is_empty() {
                     let words: Vec<String> = differences.iter().map(ToString::to_string).collect();
                     let words = words.join("; ");
                     return Err(Outcome::Refused(format!("the scene is not the master's: {words}")));
                 }
-                let threads = self.options.threads;
-                let started = Work::start(scene, threads, self.seed, reply.merged_end, program);
-                (self.sink)(Event::Rendering { scene: reply.scene.clone(), threads });
+                let started = Work::start(scene, *threads, self.seed, reply.merged_end, program);
+                (self.sink)(Event::Rendering { scene: reply.scene.clone(), threads: *threads });
                 none.insert(started.map_err(Outcome::Broken)?)
             }
         };
         let lost = work.outbox.rejoined(reply.merged_end, reply.durable_end);
         work.engine.rest(false);
-        if lost > 0 {
-            self.tell(Event::LostSamples { samples: lost, reason: "the master has a part of them" });
-        }
+        self.tell_lost(lost, "the master has a part of them");
         Ok(())
     }
 
     /// Renders for the master until something ends that.
     async fn stay(&mut self, client: &mut Client, reply: &JoinReply) -> Result<Outcome, Outcome> {
-        if self.work.as_ref().is_some_and(|work| work.engine.has_ended()) {
-            // The last of a render that has ended, which did not arrive over the last connection.
-            self.send(client, true).await?;
-            return Ok(Outcome::Finished);
-        }
         let mut reports = interval(period(reply.report_period_s, REPORTS));
         reports.set_missed_tick_behavior(MissedTickBehavior::Delay);
         let period = period(reply.upload_period_s, UPLOADS);
@@ -274,16 +303,36 @@ impl Life {
             }
             if let Some(outcome) = outcome {
                 self.send(client, true).await?;
+                if let Outcome::Finished = outcome {
+                    self.see_it_saved(client).await?;
+                }
                 return Ok(outcome);
             }
         }
+    }
+
+    /// Stays until all that was sent is in a file of the master's: until then nobody else could send it again.
+    async fn see_it_saved(&mut self, client: &mut Client) -> Result<(), Outcome> {
+        let mut stopped = self.stopped.clone();
+        let mut reports = interval(WHILE_ENDING);
+        while self.work.as_ref().is_some_and(|work| !work.outbox.is_empty()) {
+            tokio::select! {
+                _ = stopped.wait_for(|stopped| *stopped) => break,
+                _ = reports.tick() => drop(self.report(client).await?),
+            }
+        }
+        Ok(())
     }
 
     /// Gives a sign of life.
     async fn report(&mut self, client: &mut Client) -> Result<ReportReply, Outcome> {
         let progress = self.work.as_ref().and_then(|work| work.engine.seen().progress);
         *self.seen.lock().unwrap_or_else(PoisonError::into_inner) = progress;
-        let state = if self.work.is_some() { State::Rendering } else { State::Loading };
+        let state = match &self.work {
+            None => State::Loading,
+            Some(work) if work.engine.has_ended() && work.outbox.next().is_none() => State::Done,
+            Some(_) => State::Rendering,
+        };
         let reply = answer(client.report(ReportRequest {
             slave: self.id(),
             state: state.into(),
@@ -313,7 +362,9 @@ impl Life {
             let (samples, run, parcel) = parcel_of(film);
             let bytes = parcel.len() as u64;
             let parts = parts(Bytes::copy_from_slice(&self.id), parcel);
-            let sent = timeout(UPLOAD, client.upload(tokio_stream::iter(parts))).await;
+            let mut calls = client.clone();
+            let upload = timeout(UPLOAD, calls.upload(tokio_stream::iter(parts)));
+            let sent = beside_reports(upload, client, &self.id).await?;
             match sent.unwrap_or_else(|_| Err(Status::deadline_exceeded("an upload takes too long"))) {
                 Ok(reply) => {
                     let reply = reply.into_inner();
@@ -337,6 +388,27 @@ impl Life {
     /// Says good-bye. The master will notice anyhow.
     async fn leave(&self, client: &mut Client) {
         drop(answer(client.leave(LeaveRequest { slave: self.id() })).await);
+    }
+}
+
+/// What a call gives that may take long, with signs of life meanwhile: it may have to wait for its turn, or for the network.
+async fn beside_reports<T>(
+    call: impl Future<Output = T>,
+    client: &mut Client,
+    id: &[u8; 16],
+) -> Result<T, Outcome> {
+    let mut call = std::pin::pin!(call);
+    let mut reports = interval(SILENCE / 4);
+    reports.tick().await;
+    loop {
+        tokio::select! {
+            given = &mut call => return Ok(given),
+            _ = reports.tick() => {
+                let slave = Bytes::copy_from_slice(id);
+                let report = ReportRequest { slave, state: State::Rendering.into(), ..ReportRequest::default() };
+                answer(client.report(report)).await?;
+            }
+        }
     }
 }
 
