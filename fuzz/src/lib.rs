@@ -5,10 +5,9 @@
 //! cases, and `INDIGO_FUZZ_CASE` tries one case alone. There is no coverage feedback: what finds faults is that the seeds
 //! reach every part of a format.
 //!
-//! A target may neither panic nor hang nor take more than [`MEMORY`]; for the last, its binary has
-//! `indigo_testkit::allocation::Counting` as its allocator.
+//! A target may neither panic nor hang nor take more than [`MEMORY`], which is measured by who calls: the targets have an
+//! allocator that counts.
 
-use indigo_testkit::allocation::peak_of;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::time::{Duration, Instant};
 
@@ -27,18 +26,20 @@ pub const MEMORY: usize = 160 << 20;
 /// The longest input that a failure prints, in bytes.
 const SHOWN: usize = 4096;
 
-/// Feeds damaged `seeds` to `target`, which panics where it finds a fault.
+/// Feeds damaged `seeds` to `target`, which panics where it finds a fault. `peak_of` does a piece of work and gives the
+/// most bytes that it held at once.
 ///
 /// # Panics
 /// With the target's own panic, after a report of the case's number and input; where a case takes too long or too much
 /// memory; and without seeds.
 #[allow(clippy::print_stderr)]
-pub fn fuzz(seeds: &[Vec<u8>], target: impl Fn(&[u8])) {
+pub fn fuzz(seeds: &[Vec<u8>], peak_of: impl Fn(&mut dyn FnMut()) -> usize, target: impl Fn(&[u8])) {
     assert!(!seeds.is_empty(), "a fuzz target needs seeds");
     let try_case = |case: u64| {
         let input = input(seeds, case);
         let start = Instant::now();
-        let (outcome, peak) = peak_of(|| catch_unwind(AssertUnwindSafe(|| target(&input))));
+        let mut outcome = Ok(());
+        let peak = peak_of(&mut || outcome = catch_unwind(AssertUnwindSafe(|| target(&input))));
         if let Err(panic) = outcome {
             eprintln!("INDIGO_FUZZ_CASE={case} fails with {}", describe(&input));
             resume_unwind(panic);
@@ -87,10 +88,14 @@ fn describe(input: &[u8]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use indigo_testkit::allocation::Counting;
+    use indigo_testkit::allocation::{Counting, peak_of};
 
     #[global_allocator]
     static ALLOCATOR: Counting = Counting;
+
+    fn fuzz(seeds: &[Vec<u8>], target: impl Fn(&[u8])) {
+        super::fuzz(seeds, |work| peak_of(work).1, target);
+    }
 
     #[test]
     fn a_fault_is_found() {

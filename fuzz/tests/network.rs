@@ -1,15 +1,13 @@
 //! The fuzz targets of network rendering: what a master makes of what slaves send.
 
+mod common;
+
+use common::fuzz;
 use indigo_film::igi::{parcel_size, read_parcel, write_parcel};
 use indigo_film::{FilmRecord, FilmSize, FilmState, LayerKind, Run, SavedFilm, Totals};
-use indigo_fuzz::fuzz;
 use indigo_net::ledger::Ledger;
 use indigo_net::proto;
-use indigo_testkit::allocation::Counting;
 use prost::Message;
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
 
 const SEED: u64 = 7;
 

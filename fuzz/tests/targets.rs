@@ -1,17 +1,15 @@
 //! The fuzz targets: every reader of files that users bring.
 
+mod common;
+
+use common::fuzz;
 use indigo_decl::{ResolveError, Resolved, Resolver};
 use indigo_film::{FilmRecord, FilmSize, FilmState, LayerKind, Run, igi};
 use indigo_formats::image::Pixels;
 use indigo_formats::{MeshData, MeshFormat, float_map, ies, image, nk};
-use indigo_fuzz::fuzz;
 use indigo_igs::pack::{MaterialPacks, Pack, PackLimits, PackWriter};
 use indigo_light::Profile;
 use indigo_scene::{LoadOptions, Loaded, load};
-use indigo_testkit::allocation::Counting;
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
 
 /// The files of a folder below `seeds`, in order of their names.
 fn seeds(folder: &str) -> Vec<Vec<u8>> {

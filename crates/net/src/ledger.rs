@@ -10,6 +10,9 @@ use indigo_film::{FilmError, FilmRecord, FilmSize, LayerKind, Mismatch, Run, Sav
 /// The most samples, of a pixel or a film, that may be told of at once: beyond it doubles do not count by ones.
 const MOST_SAMPLES: f64 = (1u64 << 53) as f64;
 
+/// The longest time of rendering of an upload, in seconds: a year.
+const LONGEST: f64 = 365.0 * 86_400.0;
+
 /// The film and what of it is on the disk.
 #[derive(Debug)]
 pub struct Ledger {
@@ -54,6 +57,9 @@ pub enum Refusal {
     /// Its samples are not as many as it says, or more than can be.
     #[error("the number of samples is impossible")]
     Samples,
+    /// It says that it took longer than can be.
+    #[error("the time of rendering is impossible")]
+    Time,
     /// It is of another picture.
     #[error("it is of another picture: {}", words(.0))]
     Mismatch(Vec<Mismatch>),
@@ -148,6 +154,9 @@ fn check_counts(film: &SavedFilm, record: &FilmRecord) -> Result<(), Refusal> {
         if !(has_counts && adds_up) {
             return Err(Refusal::Samples);
         }
+    }
+    if !(0.0..=LONGEST).contains(&record.elapsed_s) {
+        return Err(Refusal::Time);
     }
     let samples = film.film.samples_per_pixel() * film.film.size.pixels() as f64;
     if samples.round() as u64 == record.samples { Ok(()) } else { Err(Refusal::Samples) }

@@ -119,7 +119,9 @@ fn a_master_may_die_at_the_end() {
     let mut farm = Farm::saving_each(1000.0, "");
     farm.start_master("m", &[]);
     let mut slaves = [farm.slave(1, farm.port), farm.slave(2, farm.port)];
-    [1, 2].map(|seed| farm.wait_for_uploads(seed, 2));
+    for seed in [1, 2] {
+        farm.wait_for_uploads(seed, 2);
+    }
     // The master waits for one that hangs, while the other has sent all that it has.
     signal(&slaves[1], "-STOP");
     interrupt(farm.master.as_ref().expect("there is one"));
@@ -129,7 +131,9 @@ fn a_master_may_die_at_the_end() {
     assert!(!farm.bench.path("a.igi").exists(), "nothing was saved");
     signal(&slaves[1], "-CONT");
     farm.start_master("m", &[]);
-    [1, 2].map(|seed| farm.wait_for_uploads(seed, 2));
+    for seed in [1, 2] {
+        farm.wait_for_uploads(seed, 2);
+    }
     farm.end_master();
     assert_complete(&farm);
     assert_all_of(&farm, &[1, 2]);

@@ -62,6 +62,8 @@ fn what_cannot_be_is_refused_and_changes_nothing() {
     assert_eq!(refused(&mut ledger, &changed(|f| f.record = None)), Refusal::NotOneRun);
     let two = changed(|f| f.record.as_mut().unwrap().runs.push(Run { seed: 9, first: 0, end: 1 }));
     assert_eq!(refused(&mut ledger, &two), Refusal::NotOneRun);
+    let slow = changed(|f| f.record.as_mut().unwrap().elapsed_s = 1e308);
+    assert_eq!(refused(&mut ledger, &slow), Refusal::Time);
     let impossible = [
         changed(|f| f.record.as_mut().unwrap().samples = 6),
         changed(|f| f.film.layers[0].counts[0] = 4.5),

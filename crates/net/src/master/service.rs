@@ -56,6 +56,9 @@ fn version(program: &str) -> &str {
     program.split(',').next().unwrap_or_default()
 }
 
+/// The most samples a second that a slave is believed to render.
+const FASTEST: f64 = 1e12;
+
 /// A slave's name for itself.
 fn slave_id(bytes: &[u8]) -> Result<SlaveId, Status> {
     bytes.try_into().map_err(|_| Status::invalid_argument("a slave is named by 16 bytes"))
@@ -227,7 +230,7 @@ impl Farm for Service {
                 State::Done => Presence::Done,
             };
             let rate = report.samples_per_second;
-            slave.samples_per_second = if rate.is_finite() { rate.max(0.0) } else { 0.0 };
+            slave.samples_per_second = if rate.is_finite() { rate.clamp(0.0, FASTEST) } else { 0.0 };
             slave.seed
         };
         let shared = Arc::clone(&self.shared);

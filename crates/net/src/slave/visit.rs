@@ -224,14 +224,18 @@ impl Life {
         let found = discovery::masters().await;
         let found =
             found.map_err(|why| format!("no master can be looked for: {why}; name its machine by -h"))?;
-        let mut reason = "no master is in the local network".to_owned();
+        // Of several addresses the first says best why it is not reached: they are sorted.
+        let mut reason = None;
         for (address, port) in found {
             match self.connector.connect(&address.to_string(), port).await {
                 Ok(client) => return Ok((client, SocketAddr::from((address, port)).to_string())),
-                Err(why) => reason = format!("there is a master at {address}, but {why}"),
+                Err(why) => {
+                    let place = SocketAddr::from((address, port));
+                    reason.get_or_insert(format!("there is a master at {place}, but {why}"));
+                }
             }
         }
-        Err(reason)
+        Err(reason.unwrap_or_else(|| "no master is in the local network".to_owned()))
     }
 
     fn id(&self) -> Bytes {
