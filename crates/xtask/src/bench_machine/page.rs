@@ -92,7 +92,7 @@ fn plot(now: &[[f64; 2]], then: &[[f64; 2]]) -> String {
     };
     let (x, y) = (range(0), range(1));
     let [width, height] = PLOT;
-    let across = |v: f64| ROOM[0] + (v.log10() - x[0]) / (x[1] - x[0]) * (width - ROOM[0] - 8.0);
+    let across = |v: f64| ROOM[0] + (v.log10() - x[0]) / (x[1] - x[0]) * (width - ROOM[0] - 20.0);
     let down = |v: f64| {
         let part = (v.max(f64::MIN_POSITIVE).log10() - y[0]) / (y[1] - y[0]);
         (1.0 - part) * (height - ROOM[1] - 8.0) + 8.0
