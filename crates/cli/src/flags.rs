@@ -8,6 +8,7 @@ mod help;
 mod man;
 mod network;
 mod table;
+mod tasks;
 
 use crate::console::Verbosity;
 use completions::SHELLS;
@@ -122,79 +123,20 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Arguments,
             (Some(what), None) => rest
                 .next()
                 .and_then(|v| v.into_string().ok())
+                .filter(|v| !is_option(v))
                 .ok_or_else(|| format!("-{} needs a value: -{} {what}", flag.name, flag.name))?,
         };
         parsed.given.push(flag.name);
         apply(flag, value, &mut parsed)?;
     }
-    if parsed.strategies.is_some() && parsed.output.is_none() {
-        return Err("-strategies needs the picture to write: -strategies 64 -o PICTURE.png".to_owned());
-    }
-    check_files(&parsed)?;
-    check_meaning(&parsed)?;
-    network::check(&parsed)?;
+    tasks::check(&parsed)?;
     Ok(parsed)
 }
 
-/// Whether every option has a part in what is done.
-fn check_meaning(parsed: &Arguments) -> Result<(), String> {
-    const ALWAYS: &[&str] = &["quiet", "verbose", "log-json"];
-    let (what, with): (_, &[&str]) = match (parsed.merge, parsed.tone_map) {
-        (true, _) => ("merge", &["merge", "o"]),
-        (_, true) => ("tonemap", &["tonemap", "layers", "denoise", "json"]),
-        _ => return Ok(()),
-    };
-    match parsed.given.iter().find(|name| !with.contains(name) && !ALWAYS.contains(name)) {
-        Some(name) => Err(format!("-{name} has no part in -{what}, which renders nothing")),
-        None => Ok(()),
-    }
-}
-
-/// Whether there are as many files as what is asked for takes.
-fn check_files(parsed: &Arguments) -> Result<(), String> {
-    let tasks = [
-        ("-merge", parsed.merge),
-        ("-tonemap", parsed.tone_map),
-        ("-pack", parsed.pack),
-        ("-unpack", parsed.unpack),
-    ];
-    let asked: Vec<&str> = tasks.iter().filter(|(_, asked)| *asked).map(|(name, _)| *name).collect();
-    let must = |holds: bool, message: &str| if holds { Ok(()) } else { Err(message.to_owned()) };
-    match (&asked[..], &parsed.files[..]) {
-        ([first, second, ..], _) => {
-            Err(format!("{first} and {second} are two things to do; one is done at a time"))
-        }
-        ([], [first, second, ..]) => {
-            Err(format!("two scenes are given, {first} and {second}; one is rendered at a time"))
-        }
-        ([], _) => Ok(()),
-        (["-merge"], files) => {
-            must(files.len() > 1, "-merge needs two or more films: --merge A.igi B.igi -o SUM.igi")?;
-            let Some(sum) = &parsed.output else {
-                return Err("-merge needs the file to write: --merge A.igi B.igi -o SUM.igi".to_owned());
-            };
-            let is_film = sum.to_ascii_lowercase().ends_with(".igi");
-            must(is_film, "-merge writes a film: the name behind -o must end with .igi")
-        }
-        (["-tonemap"], files) => {
-            let no_output = parsed.output.is_none();
-            must(no_output, "-o is for renders; the third file of -tonemap is the picture")?;
-            let usage =
-                "-tonemap needs a scene, a film and a picture: --tonemap SCENE.igs FILM.igi PICTURE.png";
-            must(files.len() == 3, usage)
-        }
-        ([task], files) => {
-            must(
-                parsed.output.is_none(),
-                &format!("-o is for renders; the second name of {task} is what is written"),
-            )?;
-            let usage = match *task {
-                "-pack" => "-pack needs a scene and a file to write: --pack SCENE.igs OUT.pigs",
-                _ => "-unpack needs a packed scene and a folder to make: --unpack SCENE.pigs FOLDER",
-            };
-            must(files.len() == 2, usage)
-        }
-    }
+/// Whether a word is an option rather than the value of one, which may begin with a dash, too.
+fn is_option(word: &str) -> bool {
+    let name = word.trim_start_matches('-');
+    name != word && FLAGS.iter().any(|f| f.name == name || f.alias == Some(name))
 }
 
 fn find(name: &str) -> Result<&'static Flag, String> {
@@ -218,7 +160,9 @@ fn apply(flag: &Flag, value: String, parsed: &mut Arguments) -> Result<(), Strin
         Action::Threads => {
             parsed.settings.push(Override { option: "-t", setting: "num_threads", value });
             let implied = "auto_choose_num_threads";
-            parsed.settings.push(Override { option: "", setting: implied, value: "false".to_owned() });
+            if parsed.settings.iter().all(|setting| setting.setting != implied) {
+                parsed.settings.push(Override { option: "", setting: implied, value: "false".to_owned() });
+            }
         }
         Action::Seed => {
             let seed = value.parse();

@@ -34,10 +34,13 @@ fn mistakes_get_a_helpful_answer() {
     );
     assert!(error(&["--merge", "a.igi", "-o", "b.igi"]).contains("two or more"));
     assert!(error(&["--merge", "a.igi", "b.igi"]).contains("-o SUM.igi"));
+    assert_eq!(error(&["a.igs", "-o", "-t", "1"]), "-o needs a value: -o PATH");
     assert!(error(&["--merge", "a.igi", "b.igi", "-o", "a.igs"]).contains("end with .igi"));
     assert!(error(&["--tonemap", "a.igs", "a.igi"]).contains("PICTURE.png"));
-    assert!(error(&["--tonemap", "a.igs", "a.igi", "b.png", "-o", "c.png"]).contains("third file"));
-    for option in [&["-haltspp", "4"][..], &["-r", "f.igi"], &["-seed", "1"], &["-t", "2"], &["--check"]] {
+    assert!(
+        error(&["--tonemap", "a.igs", "a.igi", "b.png", "-o", "c.png"]).contains("the last name of -tonemap")
+    );
+    for option in [&["-haltspp", "4"][..], &["-r", "f.igi"], &["-seed", "1"], &["-t", "2"]] {
         let words = [&["--tonemap", "s.igs", "f.igi", "x.png"], option].concat();
         assert!(error(&words).contains(&format!("{} has no part in -tonemap", option[0].replace("--", "-"))));
     }
@@ -84,4 +87,37 @@ fn network_options_go_with_their_part() {
     assert!(error(&["a.igs", "-n", "m", "-seed", "1"]).contains("-seed has no part in -n m"));
     assert!(error(&["a.igs", "-n", "wm", "-halterror", "0.1"]).contains("-halterror has no part"));
     assert!(error(&["a.igs", "-p", "1"]).contains("-n s, -n m or -n wm"));
+}
+
+#[test]
+fn every_option_has_a_part_in_what_is_done() {
+    let error = |words: &[&str]| parsed(words).unwrap_err();
+    for (task, others) in [
+        (&["a.igs", "-ptest"][..], &["-halt", "-o", "-layers", "-r"][..]),
+        (&["a.igs", "-check"], &["-o", "-seed", "-halterror"]),
+        (&["a.igs", "-print-settings"], &["-o", "-seed"]),
+        (&["a.igs", "-replay", "1:2:3"], &["-seed", "-haltspp", "-o", "-t"]),
+        (&["a.igs", "-strategies", "3", "-o", "s.png"], &["-haltspp", "-halt", "-t"]),
+        (&["-pack", "a.igs", "a.pigs"], &["-t", "-haltspp"]),
+        (&["-unpack", "a.pigs", "f"], &["-t", "-seed"]),
+        (&["-make-key", "k"], &["-t", "-key-file"]),
+        (&["-dumpmetadata", "a.png"], &["-t"]),
+    ] {
+        assert!(parsed(task).is_ok(), "{task:?}");
+        for option in others {
+            let text = error(&[task, &[option, "7"]].concat());
+            assert!(
+                text.starts_with(&format!("{option} has no part in ")) || text.starts_with("-o is for"),
+                "{text}"
+            );
+        }
+    }
+    assert_eq!(
+        error(&["a.igs", "-check", "-ptest"]),
+        "-ptest and -check are two things to do; one is done at a time"
+    );
+    assert!(parsed(&["a.igs", "-check", "-print-settings"]).is_ok());
+    assert!(error(&["-make-key", "k", "a.igs"]).contains("takes no file but its own"));
+    assert!(error(&["a.igs", "-n", "m", "-check"]).contains("-n has no part in -check"));
+    assert!(error(&["a.igs", "-quiet", "-verbose"]).contains("opposites"));
 }
