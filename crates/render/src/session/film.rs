@@ -34,7 +34,7 @@ impl Session {
     /// other and are never empty; their sum is the film that would have been without drains. `None` while nothing has
     /// been handed over since the last drain.
     ///
-    /// Not for sessions that estimate an error ([`Halt::relative_error`]): that would be of what is left.
+    /// Not for sessions that estimate an error ([`Halt::relative_error`](crate::Halt::relative_error)): that would be of what is left.
     pub fn drain(&mut self, program: &str) -> Option<SavedFilm> {
         let has_ended = self.workers.is_empty();
         let is_nameless = self.end_of_units() == self.first_unit;
