@@ -33,6 +33,7 @@ mod master;
 mod profile;
 mod record;
 mod sensor;
+mod share;
 mod size;
 mod state;
 
@@ -46,5 +47,6 @@ pub use layer::{Layer, LayerKind, Totals};
 pub use master::MasterFilm;
 pub use record::{DevelopedFilm, FilmRecord, Mismatch, Run, SavedFilm};
 pub use sensor::Sensor;
+pub use share::{Counted, Share, is_count};
 pub use size::FilmSize;
 pub use state::FilmState;

@@ -1,6 +1,7 @@
 //! What a film is a picture of, and which random numbers went into it: what must agree before two films may
 //! be added, or one be gone on with.
 
+use crate::share::Share as _;
 use crate::{FilmError, FilmState, XyzImage};
 
 /// A run of units of work under one seed. With the seed a unit fixes all its random numbers, so that two films
@@ -146,16 +147,22 @@ impl SavedFilm {
     /// # Errors
     /// All that keeps them apart; this film is untouched then.
     pub fn merge(&mut self, other: &Self) -> Result<(), Vec<Mismatch>> {
-        let (Some(mine), Some(theirs)) = (&mut self.record, &other.record) else {
-            let foreign = Mismatch::Film(FilmError::Foreign);
-            return Err(vec![foreign]);
-        };
+        other.add_to(self)
+    }
+
+    /// Adds what has that record by `merge`, which leaves the film untouched where it fails.
+    pub(crate) fn add(
+        &mut self,
+        theirs: &FilmRecord,
+        merge: impl FnOnce(&mut FilmState) -> Result<(), FilmError>,
+    ) -> Result<(), Vec<Mismatch>> {
+        let Some(mine) = &mut self.record else { return Err(vec![Mismatch::Film(FilmError::Foreign)]) };
         let mut differences = mine.differences(theirs);
         differences.extend(mine.shared_run(theirs));
         if !differences.is_empty() {
             return Err(differences);
         }
-        self.film.merge_state(&other.film).map_err(|e| vec![Mismatch::Film(e)])?;
+        merge(&mut self.film).map_err(|e| vec![Mismatch::Film(e)])?;
         theirs.runs.iter().for_each(|&run| mine.add_run(run));
         mine.samples = mine.samples.saturating_add(theirs.samples);
         mine.elapsed_s += theirs.elapsed_s;

@@ -5,10 +5,9 @@
 //! So an upload of units that are in the film already is a repetition, whose first answer was lost, before the master was
 //! killed or after. What a file of the film holds is known to its reader in the same way.
 
-use indigo_film::{FilmError, FilmRecord, FilmSize, LayerKind, Mismatch, Run, SavedFilm, Totals};
-
-/// The most samples, of a pixel or a film, that may be told of at once: beyond it doubles do not count by ones.
-const MOST_SAMPLES: f64 = (1u64 << 53) as f64;
+use indigo_film::{
+    FilmError, FilmRecord, FilmSize, LayerKind, Mismatch, Run, SavedFilm, Share, Totals, is_count,
+};
 
 /// The longest time of rendering of an upload, in seconds: a year.
 const LONGEST: f64 = 365.0 * 86_400.0;
@@ -105,8 +104,8 @@ impl Ledger {
     ///
     /// # Errors
     /// Why it is refused.
-    pub fn take(&mut self, seed: u64, film: &SavedFilm) -> Result<Receipt, Refusal> {
-        let record = film.record.as_ref().ok_or(Refusal::NotOneRun)?;
+    pub fn take(&mut self, seed: u64, film: &impl Share) -> Result<Receipt, Refusal> {
+        let record = film.record().ok_or(Refusal::NotOneRun)?;
         let run = match record.runs[..] {
             [run] if run.seed == seed && run.first < run.end => run,
             _ => return Err(Refusal::NotOneRun),
@@ -119,7 +118,7 @@ impl Ledger {
             return Err(Refusal::Overlap { seed, first: run.first, last: merged_end - 1 });
         }
         check_counts(film, record)?;
-        self.sum.merge(film).map_err(Refusal::Mismatch)?;
+        film.add_to(&mut self.sum).map_err(Refusal::Mismatch)?;
         Ok(self.receipt(run.end, durable_end, false, run.first - merged_end))
     }
 
@@ -141,16 +140,14 @@ impl Ledger {
 }
 
 /// Sums are finite, as their reader has made sure; what is counted must be such numbers as counting gives.
-fn check_counts(film: &SavedFilm, record: &FilmRecord) -> Result<(), Refusal> {
-    let is_count = |n: f64| n.fract() == 0.0 && (0.0..=MOST_SAMPLES).contains(&n);
-    for layer in &film.film.layers {
+fn check_counts(film: &impl Share, record: &FilmRecord) -> Result<(), Refusal> {
+    for layer in film.counted() {
         let Totals { n_samples, n_idle, b_sum, b_count } = layer.totals;
         let has_counts = [n_samples, n_idle, b_count].into_iter().all(is_count)
-            && layer.counts.iter().all(|n| is_count(*n))
             && (0.0..=f64::from(f32::MAX) * b_count).contains(&b_sum);
         // Each sample of such a layer belongs to one pixel.
         let adds_up =
-            layer.kind != LayerKind::PerPixel || layer.counts.iter().sum::<f64>() == layer.totals.n_samples;
+            layer.samples.is_some_and(|samples| layer.kind != LayerKind::PerPixel || samples == n_samples);
         if !(has_counts && adds_up) {
             return Err(Refusal::Samples);
         }
@@ -158,13 +155,12 @@ fn check_counts(film: &SavedFilm, record: &FilmRecord) -> Result<(), Refusal> {
     if !(0.0..=LONGEST).contains(&record.elapsed_s) {
         return Err(Refusal::Time);
     }
-    let samples = film.film.samples_per_pixel() * film.film.size.pixels() as f64;
-    if samples.round() as u64 == record.samples { Ok(()) } else { Err(Refusal::Samples) }
+    if film.samples().round() as u64 == record.samples { Ok(()) } else { Err(Refusal::Samples) }
 }
 
 /// The run of a film that has one.
-pub(crate) fn run_of(film: &SavedFilm) -> Option<Run> {
-    match film.record.as_ref()?.runs[..] {
+pub(crate) fn run_of(film: &impl Share) -> Option<Run> {
+    match film.record()?.runs[..] {
         [run] => Some(run),
         _ => None,
     }

@@ -25,11 +25,13 @@
 mod blocks;
 mod bytes;
 mod foreign;
+mod parcel;
 mod read;
 mod write;
 
 use crate::FilmError;
 
+pub use parcel::Parcel;
 pub use read::{IgiFile, parcel_size, read, read_parcel};
 pub use write::{write, write_parcel};
 

@@ -125,16 +125,24 @@ impl IgiFile {
 /// of the film that it says it is, of which it must hold a part: see [`parcel_size`] for who wants no other.
 pub fn read_parcel(parcel: &[u8]) -> Result<SavedFilm, IgiError> {
     let size = parcel_size(parcel)?;
+    let (is_sound, film) = sound_content(parcel, size, Content::unpack)?;
+    if is_sound { film } else { Err(IgiError::Checksum) }
+}
+
+/// Makes something of the content of a parcel of that size while its hash is computed; whether that is right, and what was
+/// made.
+pub(super) fn sound_content<'a, T: Send>(
+    parcel: &'a [u8],
+    size: FilmSize,
+    make: impl FnOnce(Content<'a>) -> Result<T, IgiError> + Send,
+) -> Result<(bool, Result<T, IgiError>), IgiError> {
     let split = parcel.len().checked_sub(HASH).filter(|&n| n >= PARCEL_HEADER);
     let (content, hash) = split.map(|n| parcel.split_at(n)).ok_or(IgiError::Truncated("the header"))?;
     let mut bytes = Bytes(content);
     bytes.take(PARCEL_HEADER, "the header")?;
-    let read = || Content::read_section(bytes, size, Precision::Single).and_then(Content::unpack);
-    let (found, film) = rayon::join(|| blake3::hash(content), read);
-    if found.as_bytes() != hash {
-        return Err(IgiError::Checksum);
-    }
-    film
+    let read = || Content::read_section(bytes, size, Precision::Single).and_then(make);
+    let (found, made) = rayon::join(|| blake3::hash(content), read);
+    Ok((found.as_bytes() == hash, made))
 }
 
 /// Bytes before the film section of a parcel.
@@ -177,11 +185,11 @@ fn read_without_mark(file: &[u8]) -> Result<SavedFilm, IgiError> {
 }
 
 /// What a file with the mark holds, not unpacked yet.
-struct Content<'a> {
-    size: FilmSize,
-    record: FilmRecord,
-    refused: u64,
-    layers: Vec<PackedLayer<'a>>,
+pub(super) struct Content<'a> {
+    pub size: FilmSize,
+    pub record: FilmRecord,
+    pub refused: u64,
+    pub layers: Vec<PackedLayer<'a>>,
 }
 
 impl<'a> Content<'a> {
@@ -273,12 +281,12 @@ fn read_run(bytes: &mut Bytes<'_>) -> Result<Run, IgiError> {
 }
 
 /// A layer whose sums and counts are still packed.
-struct PackedLayer<'a> {
-    kind: LayerKind,
-    name: String,
-    totals: Totals,
-    sums: Packed<'a>,
-    counts: Packed<'a>,
+pub(super) struct PackedLayer<'a> {
+    pub kind: LayerKind,
+    pub name: String,
+    pub totals: Totals,
+    pub sums: Packed<'a>,
+    pub counts: Packed<'a>,
 }
 
 /// What unpacking needs room for.
@@ -349,7 +357,7 @@ impl<'a> PackedLayer<'a> {
     }
 }
 
-fn check_counts(counts: &[f64]) -> Result<(), IgiError> {
+pub(super) fn check_counts(counts: &[f64]) -> Result<(), IgiError> {
     if counts.iter().any(|&n| n < 0.0) {
         return Err(IgiError::Malformed("a pixel has a negative number of samples"));
     }

@@ -15,8 +15,8 @@ use crate::proto::{
     Setting, UploadPart, UploadReply, UploadStart,
 };
 use bytes::Bytes;
-use indigo_film::igi::{parcel_size, read_parcel};
-use indigo_film::{Run, SavedFilm};
+use indigo_film::igi::{Parcel, parcel_size};
+use indigo_film::{Run, Share as _};
 use indigo_render::pool::with_jobs;
 use std::net::{Ipv4Addr, SocketAddr};
 use std::pin::Pin;
@@ -297,12 +297,12 @@ fn add(shared: &Shared, seed: u64, parcel: &[u8]) -> Result<(Upload, Receipt), S
         return Err(Status::invalid_argument(format!("an upload is {size}, and the film is {expected}")));
     }
     // A thread of its own and no more: the others may render.
-    let film: SavedFilm = with_jobs(1, || read_parcel(parcel)).map_err(damaged)?;
+    let film = with_jobs(1, || Parcel::open(parcel)).map_err(damaged)?;
     let receipt = shared
         .ledger()
         .take(seed, &film)
         .map_err(|refusal: Refusal| Status::invalid_argument(format!("an upload is refused: {refusal}")))?;
-    let samples = film.record.as_ref().map_or(0, |record| record.samples);
+    let samples = film.record().map_or(0, |record| record.samples);
     // Without a run it would have been refused.
     Ok((Upload { samples, run: run_of(&film).unwrap_or(Run { seed, first: 0, end: 0 }) }, receipt))
 }
