@@ -1,4 +1,5 @@
 //! What a second process adds: a working master and a slave, each with one thread, against one process with one thread.
+//! Two processes that know nothing of each other tell what the machine has to give.
 //!
 //! `cargo bench -p indigo-cli --bench two_machines`. The machine must be otherwise idle, and have two cores.
 
@@ -10,7 +11,7 @@ use std::time::Duration;
 const RUN_S: u64 = 24;
 const WARM_UP_S: f64 = 8.0;
 /// Runs of each kind, in turns.
-const RUNS: usize = 3;
+const RUNS: usize = 5;
 /// A glass ball and a grey one in a room of light: bidirectional, as scenes are by default.
 const SCENE: &str = "<scene>
 <renderer_settings><width>640</width><height>480</height><metropolis>false</metropolis><logging>false</logging>
@@ -54,33 +55,69 @@ fn rate(log: &str) -> f64 {
     (last.1 - first.1) / (last.0 - first.0)
 }
 
-fn measure(folder: &Path, name: &str, more: &[&str], with_slave: bool) -> f64 {
-    let (seconds, log, picture) = (RUN_S.to_string(), format!("{name}.json"), format!("{name}.png"));
-    drop(std::fs::remove_file(folder.join(&log)));
-    let arguments = ["scene.igs", "-t", "1", "-halt", &seconds, "--log-json", &log, "-o", &picture];
-    let mut main = start(folder, &[&arguments[..], more].concat());
-    let slave = with_slave.then(|| start(folder, &["-n", "s", "-h", "127.0.0.1:17777", "-t", "1"]));
-    assert!(main.wait().expect("a child of ours").success());
-    if let Some(mut slave) = slave {
-        slave.kill().expect("a child of ours");
-        slave.wait().expect("a child of ours");
+/// Who renders beside the process that is measured.
+#[derive(Clone, Copy)]
+enum Other {
+    Nobody,
+    Slave,
+    Stranger,
+}
+
+/// Samples per second of a process with one thread, and of whoever renders beside it.
+fn measure(folder: &Path, name: &str, more: &[&str], other: Other) -> f64 {
+    let process = |name: &str, more: &[&str]| {
+        let (seconds, log, picture) = (RUN_S.to_string(), format!("{name}.json"), format!("{name}.png"));
+        drop(std::fs::remove_file(folder.join(&log)));
+        let arguments = ["scene.igs", "-t", "1", "-halt", &seconds, "--log-json", &log, "-o", &picture];
+        start(folder, &[&arguments[..], more].concat())
+    };
+    let rate =
+        |name: &str| rate(&std::fs::read_to_string(folder.join(format!("{name}.json"))).expect("a log"));
+    let mut main = process(name, more);
+    match other {
+        Other::Nobody => {
+            assert!(main.wait().expect("a child of ours").success());
+            rate(name)
+        }
+        Other::Slave => {
+            let mut slave = start(folder, &["-n", "s", "-h", "127.0.0.1:17777", "-t", "1"]);
+            assert!(main.wait().expect("a child of ours").success());
+            slave.kill().expect("a child of ours");
+            slave.wait().expect("a child of ours");
+            // The master counts the samples of both.
+            rate(name)
+        }
+        Other::Stranger => {
+            let mut stranger = process("stranger", &["-seed", "1"]);
+            for child in [&mut main, &mut stranger] {
+                assert!(child.wait().expect("a child of ours").success());
+            }
+            rate(name) + rate("stranger")
+        }
     }
-    rate(&std::fs::read_to_string(folder.join(&log)).expect("a log"))
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
 }
 
 fn main() {
     let folder = std::env::temp_dir().join(format!("indigo-two-machines-{}", std::process::id()));
     std::fs::create_dir_all(&folder).expect("a folder");
     std::fs::write(folder.join("scene.igs"), SCENE).expect("a scene");
-    let mut ratios = vec![];
+    let (mut together, mut apart) = (vec![], vec![]);
     for run in 0..RUNS {
-        let one = measure(&folder, "one", &[], false);
-        std::thread::sleep(Duration::from_secs(1));
-        let two = measure(&folder, "two", &["-n", "wm", "-p", "17777"], true);
-        println!("run {run}: {one:.0} samples/s by one process, {two:.0} by two: {:.3}", two / one);
-        ratios.push(two / one);
+        let one = measure(&folder, "one", &[], Other::Nobody);
+        let two = measure(&folder, "two", &["-n", "wm", "-p", "17777"], Other::Slave);
+        let strangers = measure(&folder, "apart", &[], Other::Stranger);
+        let (pair, strangers) = (two / one, strangers / one);
+        println!(
+            "run {run}: {one:.0} samples/s by one process; {pair:.3} times as many by master and slave, {strangers:.3} by two apart"
+        );
+        together.push(pair);
+        apart.push(strangers);
     }
-    ratios.sort_by(f64::total_cmp);
-    println!("median: {:.3}", ratios[RUNS / 2]);
+    println!("median: {:.3} by master and slave, {:.3} by two apart", median(together), median(apart));
     std::fs::remove_dir_all(folder).expect("our own folder");
 }
