@@ -3,7 +3,7 @@
 mod common;
 
 use common::fuzz;
-use indigo_film::igi::{parcel_size, read_parcel, write_parcel};
+use indigo_film::igi::{Parcel, parcel_size, read_parcel, write_parcel};
 use indigo_film::{FilmRecord, FilmSize, FilmState, LayerKind, Run, SavedFilm, Totals};
 use indigo_net::ledger::Ledger;
 use indigo_net::proto;
@@ -48,12 +48,25 @@ fn upload() {
         let mut parcel = bytes.to_vec();
         for _ in 0..2 {
             // As a master does, so that no parcel is unpacked that is larger than the film.
-            if parcel_size(&parcel) == Ok(size())
-                && let Ok(sent) = read_parcel(&parcel)
+            let opened = Parcel::open(&parcel);
+            if parcel_size(&parcel) == Ok(size()) {
+                assert_eq!(
+                    opened.as_ref().err(),
+                    read_parcel(&parcel).as_ref().err(),
+                    "both ways see the same"
+                );
+            }
+            if let Ok(sent) = opened
+                && sent.size() == size()
             {
                 let mut ledger = Ledger::new(film(0.0)).unwrap();
                 let taken = ledger.take(SEED, &sent);
                 let sum = ledger.copy();
+                if taken.is_ok() {
+                    let mut unpacked = film(0.0);
+                    unpacked.merge(&read_parcel(&parcel).unwrap()).unwrap();
+                    assert_eq!(sum, unpacked);
+                }
                 let whole = |n: f64| n >= 0.0 && n.fract() == 0.0;
                 assert!(sum.film.layers.iter().flat_map(|l| &l.sums).flatten().all(|v| v.is_finite()));
                 assert!(sum.film.layers.iter().flat_map(|l| &l.counts).all(|n| whole(*n)));

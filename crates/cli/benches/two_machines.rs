@@ -5,7 +5,6 @@
 
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
-use std::time::Duration;
 
 /// Seconds of each run; the first few, in which a slave loads the scene, do not count.
 const RUN_S: u64 = 24;
