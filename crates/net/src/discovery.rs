@@ -102,13 +102,18 @@ mod tests {
             return println!("skipped: this machine has no multicast DNS");
         };
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().expect("threads");
-        let found = runtime.block_on(masters());
+        // Other masters may be there, too, and looking ends soon after the first has answered.
+        let is_ours = |found: &[(IpAddr, u16)]| found.iter().any(|(_, other)| *other == port);
+        let mut found = runtime.block_on(masters());
+        for _ in 0..5 {
+            if found.as_ref().map_or(true, |found| found.is_empty() || is_ours(found)) {
+                break;
+            }
+            found = runtime.block_on(masters());
+        }
         drop(announcement);
         match found {
-            // Others may be there, too, and looking ends soon after the first was found.
-            Ok(found) if found.iter().all(|(_, other)| *other != port) => {
-                println!("skipped: this machine passes no multicast on, or another master answers first");
-            }
+            Ok(found) if found.is_empty() => println!("skipped: this machine passes no multicast on"),
             Ok(found) => assert!(found.contains(&(Ipv4Addr::LOCALHOST.into(), port)), "{found:?}"),
             Err(error) => println!("skipped: {error}"),
         }

@@ -6,6 +6,7 @@ use std::pin::Pin;
 use std::task::{Context, Poll, ready};
 use std::time::Duration;
 use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
+use tokio::sync::OwnedSemaphorePermit;
 use tokio::time::{Instant, Sleep, sleep};
 
 /// A stream of which each read must bring something within a time. A peer that is asked by HTTP/2 whether it is still
@@ -16,17 +17,20 @@ pub struct Watched<S> {
     alarm: Pin<Box<Sleep>>,
     /// Whether something that could be written counts, too.
     hears_writes: bool,
+    /// A place among those that are counted, which is free again when the stream ends.
+    _place: Option<OwnedSemaphorePermit>,
 }
 
 impl<S> Watched<S> {
     /// From now on.
     pub fn new(stream: S, patience: Duration) -> Self {
-        Self { stream, patience, alarm: Box::pin(sleep(patience)), hears_writes: false }
+        Self { stream, patience, alarm: Box::pin(sleep(patience)), hears_writes: false, _place: None }
     }
 
     /// The same for a peer that may listen for long without a word: it must take something within the time, or say it.
-    pub fn both_ways(stream: S, patience: Duration) -> Self {
-        Self { hears_writes: true, ..Self::new(stream, patience) }
+    /// The stream keeps its place as long as it lives.
+    pub fn both_ways(stream: S, patience: Duration, place: OwnedSemaphorePermit) -> Self {
+        Self { hears_writes: true, _place: Some(place), ..Self::new(stream, patience) }
     }
 
     fn rewind(&mut self) {

@@ -7,13 +7,10 @@ use crate::watched::Watched;
 use axum::serve::Listener;
 use std::io;
 use std::net::SocketAddr;
-use std::pin::Pin;
 use std::sync::Arc;
-use std::task::{Context, Poll};
 use std::time::Duration;
-use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
 use tokio::net::{TcpListener, TcpStream};
-use tokio::sync::{OwnedSemaphorePermit, Semaphore};
+use tokio::sync::Semaphore;
 use tokio::time::sleep;
 
 /// How long to wait where the system gives no connection, for want of file handles, say.
@@ -32,22 +29,16 @@ impl Door {
     }
 }
 
-/// A connection, with its place.
-pub struct Visitor {
-    stream: Watched<TcpStream>,
-    _place: OwnedSemaphorePermit,
-}
-
 impl Listener for Door {
-    type Io = Visitor;
+    type Io = Watched<TcpStream>;
     type Addr = SocketAddr;
 
-    async fn accept(&mut self) -> (Visitor, SocketAddr) {
+    async fn accept(&mut self) -> (Watched<TcpStream>, SocketAddr) {
         loop {
             if let Ok(place) = Arc::clone(&self.places).acquire_owned().await
                 && let Ok((tcp, peer)) = self.listener.accept().await
             {
-                return (Visitor { stream: Watched::both_ways(tcp, PAGE_SILENCE), _place: place }, peer);
+                return (Watched::both_ways(tcp, PAGE_SILENCE, place), peer);
             }
             sleep(PAUSE).await;
         }
@@ -55,41 +46,5 @@ impl Listener for Door {
 
     fn local_addr(&self) -> io::Result<SocketAddr> {
         self.listener.local_addr()
-    }
-}
-
-impl AsyncRead for Visitor {
-    fn poll_read(
-        mut self: Pin<&mut Self>,
-        cx: &mut Context<'_>,
-        buf: &mut ReadBuf<'_>,
-    ) -> Poll<io::Result<()>> {
-        Pin::new(&mut self.stream).poll_read(cx, buf)
-    }
-}
-
-impl AsyncWrite for Visitor {
-    fn poll_write(mut self: Pin<&mut Self>, cx: &mut Context<'_>, buf: &[u8]) -> Poll<io::Result<usize>> {
-        Pin::new(&mut self.stream).poll_write(cx, buf)
-    }
-
-    fn poll_write_vectored(
-        mut self: Pin<&mut Self>,
-        cx: &mut Context<'_>,
-        bufs: &[io::IoSlice<'_>],
-    ) -> Poll<io::Result<usize>> {
-        Pin::new(&mut self.stream).poll_write_vectored(cx, bufs)
-    }
-
-    fn is_write_vectored(&self) -> bool {
-        self.stream.is_write_vectored()
-    }
-
-    fn poll_flush(mut self: Pin<&mut Self>, cx: &mut Context<'_>) -> Poll<io::Result<()>> {
-        Pin::new(&mut self.stream).poll_flush(cx)
-    }
-
-    fn poll_shutdown(mut self: Pin<&mut Self>, cx: &mut Context<'_>) -> Poll<io::Result<()>> {
-        Pin::new(&mut self.stream).poll_shutdown(cx)
     }
 }
