@@ -5,6 +5,8 @@
 //! any root, such as `inifile.xml`. What the elements mean is not known here, with two exceptions:
 //! `include`, and the bulk data of an `embedded` mesh, which goes straight into arrays.
 //!
+//! [`edit`] changes the text of scenes that were read and leaves everything else in it as it stands.
+//!
 //! The syntax is XML 1.0 without document types, read by a scanner of our own: a
 //! library for XML stops at the first fault, while a user wants to hear of all of them, and real
 //! exporters write comments that no XML library accepts. Nothing here panics on any input, and the
@@ -15,6 +17,7 @@
 )]
 
 pub mod codes;
+pub mod edit;
 mod embedded;
 mod include;
 mod limits;

@@ -13,6 +13,12 @@ pub(crate) fn starts_name(b: u8) -> bool {
     b.is_ascii_alphabetic() || b == b'_' || b == b':' || b >= 0x80
 }
 
+/// Whether a text is a name that any encoding can hold.
+pub(crate) fn is_plain_name(name: &str) -> bool {
+    let (first, rest) = (name.bytes().next(), name.bytes().skip(1));
+    name.is_ascii() && first.is_some_and(starts_name) && rest.into_iter().all(continues_name)
+}
+
 fn continues_name(b: u8) -> bool {
     starts_name(b) || b.is_ascii_digit() || b == b'-' || b == b'.'
 }

@@ -27,6 +27,27 @@ impl Encoding {
             ),
         }
     }
+
+    /// Whether the file says that it is Latin-1.
+    pub fn is_latin1(self) -> bool {
+        self.latin1
+    }
+}
+
+/// Some text as bytes of a file; characters that Latin-1 lacks become entities. Those from 128 to 159 too, which
+/// mean something else in Windows-1252.
+pub(crate) fn encode(text: &str, latin1: bool) -> Vec<u8> {
+    if !latin1 {
+        return text.as_bytes().to_vec();
+    }
+    let mut bytes = Vec::with_capacity(text.len());
+    for c in text.chars() {
+        match u8::try_from(c) {
+            Ok(b) if !(0x80..0xA0).contains(&b) => bytes.push(b),
+            _ => bytes.extend(format!("&#{};", u32::from(c)).bytes()),
+        }
+    }
+    bytes
 }
 
 /// Whether a file is in UTF-16 or UTF-32, of which nothing can be read: by its mark, or the `<` it begins with.

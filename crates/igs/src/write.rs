@@ -3,53 +3,38 @@
 use indigo_decl::{Element, EmbeddedMesh};
 use std::fmt::Write as _;
 
+/// How what is written is laid out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Layout {
+    /// What ends a line; empty for everything in one line.
+    pub newline: String,
+    /// What stands before the outermost element in each of its lines.
+    pub base: String,
+    /// What children are indented by.
+    pub unit: String,
+}
+
 /// An element and all below it as XML, indented; what [`read_document`](crate::read_document) reads
 /// back is the same, places apart.
 ///
 /// Text is written without blanks around it. Characters that XML cannot hold are left out.
 pub fn write(element: &Element) -> String {
-    let mut out = String::from("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n");
-    element_at(&mut out, element, 0);
-    out
+    let layout = Layout { newline: "\n".into(), base: String::new(), unit: "\t".into() };
+    let mut writer =
+        Writer { out: String::from("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n"), layout: &layout };
+    writer.element(element, 0);
+    writer.out
 }
 
-fn element_at(out: &mut String, element: &Element, depth: usize) {
-    indent(out, depth);
-    let _ = write!(out, "<{}", element.name);
-    for a in &element.attributes {
-        let _ = write!(out, " {}=\"", a.name.value);
-        escape(out, &a.value.value);
-        out.push('"');
-    }
-    let text = &element.text.value;
-    if element.children.is_empty() && element.mesh.is_none() {
-        if text.is_empty() {
-            out.push_str("/>\n");
-        } else {
-            out.push('>');
-            escape(out, text);
-            let _ = writeln!(out, "</{}>", element.name);
-        }
-        return;
-    }
-    out.push('>');
-    escape(out, text);
-    out.push('\n');
-    if let Some(mesh) = &element.mesh {
-        mesh_at(out, mesh, depth + 1);
-    }
-    for child in &element.children {
-        element_at(out, child, depth + 1);
-    }
-    indent(out, depth);
-    let _ = writeln!(out, "</{}>", element.name);
+/// An element and all below it, without blanks before and after it.
+pub(crate) fn fragment(element: &Element, layout: &Layout) -> String {
+    let mut writer = Writer { out: String::new(), layout };
+    writer.element(element, 0);
+    writer.out.trim_ascii().to_owned()
 }
 
-fn indent(out: &mut String, depth: usize) {
-    out.extend(std::iter::repeat_n('\t', depth));
-}
-
-fn escape(out: &mut String, text: &str) {
+/// A text as it stands between tags and in the quotes of an attribute.
+pub(crate) fn escape(out: &mut String, text: &str) {
     for c in text.chars() {
         match c {
             '<' => out.push_str("&lt;"),
@@ -63,52 +48,107 @@ fn escape(out: &mut String, text: &str) {
     }
 }
 
-fn numbers<const N: usize>(out: &mut String, name: &str, values: [f32; N]) {
-    let _ = write!(out, " {name}=\"");
-    for (i, v) in values.iter().enumerate() {
-        let _ = write!(out, "{}{v}", if i == 0 { "" } else { " " });
-    }
-    out.push('"');
+struct Writer<'a> {
+    out: String,
+    layout: &'a Layout,
 }
 
-fn mesh_at(out: &mut String, mesh: &EmbeddedMesh, depth: usize) {
-    let data = &mesh.data;
-    for (name, index) in &data.uv_names {
-        indent(out, depth);
-        let _ = write!(out, "<expose_uv_set><index>{index}</index><name>");
-        escape(out, name);
-        out.push_str("</name></expose_uv_set>\n");
-    }
-    for (i, &p) in data.positions.iter().enumerate() {
-        indent(out, depth);
-        out.push_str("<vertex");
-        numbers(out, "pos", p);
-        if let Some(&n) = data.normals.get(i) {
-            numbers(out, "normal", n);
+impl Writer<'_> {
+    fn element(&mut self, element: &Element, depth: usize) {
+        self.indent(depth);
+        let _ = write!(self.out, "<{}", element.name);
+        for a in &element.attributes {
+            let _ = write!(self.out, " {}=\"", a.name.value);
+            escape(&mut self.out, &a.value.value);
+            self.out.push('"');
         }
-        for (set, values) in data.uv_sets.iter().enumerate() {
-            if let Some(&uv) = values.get(i) {
-                numbers(out, &format!("uv{set}"), uv);
+        let text = &element.text.value;
+        if element.children.is_empty() && element.mesh.is_none() {
+            if text.is_empty() {
+                self.out.push_str("/>");
+            } else {
+                self.out.push('>');
+                escape(&mut self.out, text);
+                let _ = write!(self.out, "</{}>", element.name);
             }
+            self.end_line();
+            return;
         }
-        out.push_str("/>\n");
+        self.out.push('>');
+        escape(&mut self.out, text);
+        self.end_line();
+        if let Some(mesh) = &element.mesh {
+            self.mesh(mesh, depth + 1);
+        }
+        for child in &element.children {
+            self.element(child, depth + 1);
+        }
+        self.indent(depth);
+        let _ = write!(self.out, "</{}>", element.name);
+        self.end_line();
     }
-    let triangles: Vec<(&[u32; 3], &u32)> = data.triangles.iter().zip(&data.triangle_materials).collect();
-    for run in triangles.chunk_by(|a, b| a.1 == b.1) {
-        triangle_set(out, mesh, run, depth);
-    }
-}
 
-fn triangle_set(out: &mut String, mesh: &EmbeddedMesh, run: &[(&[u32; 3], &u32)], depth: usize) {
-    let material = run.first().and_then(|(_, m)| mesh.data.material_names.get(**m as usize));
-    indent(out, depth);
-    out.push_str("<triangle_set><material_name>");
-    escape(out, material.map_or("", String::as_str));
-    out.push_str("</material_name>\n");
-    for ([a, b, c], _) in run {
-        indent(out, depth + 1);
-        let _ = writeln!(out, "<tri>{a} {b} {c}</tri>");
+    fn indent(&mut self, depth: usize) {
+        self.out.push_str(&self.layout.base);
+        self.out.extend(std::iter::repeat_n(self.layout.unit.as_str(), depth));
     }
-    indent(out, depth);
-    out.push_str("</triangle_set>\n");
+
+    fn end_line(&mut self) {
+        self.out.push_str(&self.layout.newline);
+    }
+
+    fn numbers<const N: usize>(&mut self, name: &str, values: [f32; N]) {
+        let _ = write!(self.out, " {name}=\"");
+        for (i, v) in values.iter().enumerate() {
+            let _ = write!(self.out, "{}{v}", if i == 0 { "" } else { " " });
+        }
+        self.out.push('"');
+    }
+
+    fn mesh(&mut self, mesh: &EmbeddedMesh, depth: usize) {
+        let data = &mesh.data;
+        for (name, index) in &data.uv_names {
+            self.indent(depth);
+            let _ = write!(self.out, "<expose_uv_set><index>{index}</index><name>");
+            escape(&mut self.out, name);
+            self.out.push_str("</name></expose_uv_set>");
+            self.end_line();
+        }
+        for (i, &p) in data.positions.iter().enumerate() {
+            self.indent(depth);
+            self.out.push_str("<vertex");
+            self.numbers("pos", p);
+            if let Some(&n) = data.normals.get(i) {
+                self.numbers("normal", n);
+            }
+            for (set, values) in data.uv_sets.iter().enumerate() {
+                if let Some(&uv) = values.get(i) {
+                    self.numbers(&format!("uv{set}"), uv);
+                }
+            }
+            self.out.push_str("/>");
+            self.end_line();
+        }
+        let triangles: Vec<(&[u32; 3], &u32)> = data.triangles.iter().zip(&data.triangle_materials).collect();
+        for run in triangles.chunk_by(|a, b| a.1 == b.1) {
+            self.triangle_set(mesh, run, depth);
+        }
+    }
+
+    fn triangle_set(&mut self, mesh: &EmbeddedMesh, run: &[(&[u32; 3], &u32)], depth: usize) {
+        let material = run.first().and_then(|(_, m)| mesh.data.material_names.get(**m as usize));
+        self.indent(depth);
+        self.out.push_str("<triangle_set><material_name>");
+        escape(&mut self.out, material.map_or("", String::as_str));
+        self.out.push_str("</material_name>");
+        self.end_line();
+        for ([a, b, c], _) in run {
+            self.indent(depth + 1);
+            let _ = write!(self.out, "<tri>{a} {b} {c}</tri>");
+            self.end_line();
+        }
+        self.indent(depth);
+        self.out.push_str("</triangle_set>");
+        self.end_line();
+    }
 }

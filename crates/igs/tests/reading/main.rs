@@ -1,6 +1,8 @@
 //! The reader of scene files, from outside.
 
 mod common;
+mod editing;
+mod editing_laws;
 mod embedded;
 mod includes;
 mod properties;

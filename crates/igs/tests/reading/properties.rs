@@ -7,10 +7,10 @@ use indigo_igs::{Limits, write};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-const HERE: Span = Span { source: SourceId(0), len: 0, start: 0 };
+pub const HERE: Span = Span { source: SourceId(0), len: 0, start: 0 };
 
 /// A tree with all places forgotten.
-fn placeless(mut element: Element) -> Element {
+pub fn placeless(mut element: Element) -> Element {
     element.span = HERE;
     element.text.span = HERE;
     for a in &mut element.attributes {
@@ -24,7 +24,7 @@ fn placeless(mut element: Element) -> Element {
     element
 }
 
-fn text() -> impl Strategy<Value = String> {
+pub fn text() -> impl Strategy<Value = String> {
     "[ -~äß€\n\t]{0,12}".prop_map(|s| s.trim_ascii().to_owned())
 }
 
@@ -39,7 +39,7 @@ fn attributes() -> impl Strategy<Value = Vec<Attribute>> {
     })
 }
 
-fn element() -> impl Strategy<Value = Element> {
+pub fn element() -> impl Strategy<Value = Element> {
     // Not "include", "mesh" or "embedded", which have a meaning.
     let name = "[a-df-hj-ln-z_ä][a-z0-9_.-]{0,6}";
     let leaf = (name, attributes(), text()).prop_map(|(name, attributes, text)| Element {
