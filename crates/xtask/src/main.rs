@@ -3,9 +3,11 @@
 //! Written in Rust rather than in a shell or a make language, so that whoever can build Indigo can run
 //! it, and everything here is checked by the same compiler, linter and tests.
 
+mod apt;
 mod bench;
 mod bench_machine;
 mod bench_rays;
+mod display;
 mod documents;
 mod fuzz;
 mod generate;
@@ -30,8 +32,8 @@ struct Command {
 const COMMANDS: &[Command] = &[
     Command {
         name: "test",
-        arguments: "[--full | --grid] [FILTER]",
-        about: "everything a change must pass; with FILTER only the tests whose name has it; --grid: the whole agreement grid alone",
+        arguments: "[--full | --grid | --window] [FILTER]",
+        about: "everything a change must pass; with FILTER only the tests whose name has it; --grid: the whole agreement grid alone; --window: the window's tests alone",
         run: stages::test,
     },
     Command { name: "fmt", arguments: "", about: "format all Rust code", run: stages::format },

@@ -4,10 +4,8 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use crate::process::{cargo, run};
-use crate::{Outcome, documents, fuzz, generate, tidy, venv};
+use crate::{Outcome, display, documents, fuzz, generate, tidy, venv};
 
-/// Where tests find the Python that has the packages of [`venv::for_tests`].
-const TEST_PYTHON: &str = "INDIGO_TEST_PYTHON";
 /// Seconds per fuzz target in the full run.
 const FULL_FUZZ_SECONDS: &str = "60";
 
@@ -24,20 +22,24 @@ pub fn lint(_: &[String]) -> Outcome {
 /// `cargo xtask test`: every stage runs, whatever became of those before it; then a summary.
 pub fn test(arguments: &[String]) -> Outcome {
     let (flags, filters): (Vec<&String>, Vec<&String>) = arguments.iter().partition(|a| a.starts_with('-'));
-    if flags.iter().any(|flag| !["--full", "--grid"].contains(&flag.as_str())) || filters.len() > 1 {
-        return Err("usage: cargo xtask test [--full | --grid] [FILTER]".into());
+    let known = ["--full", "--grid", "--window"];
+    if flags.iter().any(|flag| !known.contains(&flag.as_str())) || filters.len() > 1 {
+        return Err("usage: cargo xtask test [--full | --grid | --window] [FILTER]".into());
     }
+    let filter = filters.first().map(|f| f.as_str());
     let has = |wanted: &str| flags.iter().any(|flag| *flag == wanted);
     let mut report = Report::default();
     if has("--grid") {
-        report.stage("agreement grid", || grid(filters.first().map(|f| f.as_str())));
-    } else if let Some(filter) = filters.first() {
-        report.stage("tests", || tests(Some(filter)));
+        report.stage("agreement grid", || grid(filter));
+    } else if has("--window") {
+        report.stage("window", || display::tests(filter));
+    } else if filter.is_some() {
+        every_test(&mut report, filter);
     } else {
         report.stage("format", || run(&mut cargo(&["fmt", "--all", "--check"])));
         report.stage("tidy", || tidy::run(&[]));
         report.stage("lint", || lint(&[]));
-        report.stage("tests", || tests(None));
+        every_test(&mut report, None);
         for (about, feature) in FURNACES {
             report.stage(about, || furnace(feature));
         }
@@ -50,10 +52,20 @@ pub fn test(arguments: &[String]) -> Outcome {
     report.finish()
 }
 
-/// All unit, integration and documentation tests, with what they need installed first.
+/// All unit, integration and documentation tests; those of the window apart, since they need a display.
+fn every_test(report: &mut Report, filter: Option<&str>) {
+    report.stage("tests", || tests(filter));
+    if display::has_window() {
+        report.stage("window", || display::tests(filter));
+    }
+}
+
+/// All tests but the window's, with what they need installed first.
 fn tests(filter: Option<&str>) -> Outcome {
     let python = venv::for_tests()?;
-    cargo_test(&["--workspace"], filter, &python)
+    let but_the_window = ["--workspace", "--exclude", display::WINDOW];
+    let selection = if display::has_window() { &but_the_window[..] } else { &but_the_window[..1] };
+    cargo_test(selection, filter, &python)
 }
 
 /// Every technique under every driver on every scene of the grid, of which the tests of each run take a part.
@@ -64,7 +76,7 @@ fn grid(filter: Option<&str>) -> Outcome {
 
 fn cargo_test(selection: &[&str], filter: Option<&str>, python: &Path) -> Outcome {
     let mut command = cargo(&["test", "--no-fail-fast"]);
-    run(command.args(selection).args(filter).env(TEST_PYTHON, python))
+    run(command.args(selection).args(filter).env(venv::TEST_PYTHON, python))
 }
 
 /// The other lane counts that every run renders a furnace with: nothing may rest on there being four.

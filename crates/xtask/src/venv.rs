@@ -4,6 +4,9 @@ use std::path::PathBuf;
 
 use crate::process::{self, command};
 
+/// Where tests find the Python that has the packages of [`for_tests`].
+pub const TEST_PYTHON: &str = "INDIGO_TEST_PYTHON";
+
 /// What the tests import. OpenEXR, the reference implementation, reads back our EXR files; colour-science works
 /// out how colours are shown. pyoidn brings Open Image Denoise itself, for the processors that it is built for. Pinned: a new version may change what a test sees only by a commit here.
 const TEST_PACKAGES: &[&str] = &[
