@@ -1,7 +1,8 @@
 //! What the user sees: messages, and a progress line that renews itself on a terminal; and the logs that keep it.
 
-use crate::paths::utc;
 use indigo_diag::{Diagnostic, Severity, SourceMap, Style, quoted, to_json, to_text};
+use indigo_front::messages::{Messages, Verbosity, clock, scaled};
+use indigo_front::paths::utc;
 use indigo_net::event::{Event, Field, Weight};
 use indigo_render::Progress;
 use std::fs::{File, OpenOptions};
@@ -11,20 +12,6 @@ use std::time::{Duration, Instant, SystemTime};
 
 /// Time between lines of progress in logs, while a terminal has its line renewed several times a second.
 const BETWEEN_LOGGED: Duration = Duration::from_secs(10);
-
-/// How much is said.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Verbosity {
-    /// Nothing: what is said goes to the logs alone.
-    Silent,
-    /// Warnings and errors.
-    Quiet,
-    /// Also what is done, and how far it is.
-    #[default]
-    Usual,
-    /// Also what takes time.
-    Verbose,
-}
 
 /// What a message is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -95,26 +82,6 @@ impl Console {
     pub fn log_json_to(&mut self, path: &Path) -> std::io::Result<()> {
         self.json_log = Some(OpenOptions::new().create(true).append(true).open(path)?);
         Ok(())
-    }
-
-    /// Says what went wrong.
-    pub fn error(&mut self, message: &str) {
-        self.write(Level::Error, &format!("error: {message}"), message, "");
-    }
-
-    /// Says what the user should know.
-    pub fn warn(&mut self, message: &str) {
-        self.write(Level::Warning, &format!("warning: {message}"), message, "");
-    }
-
-    /// Says what is done.
-    pub fn say(&mut self, message: &str) {
-        self.write(Level::Info, message, message, "");
-    }
-
-    /// Says what takes time, to those who want to know.
-    pub fn detail(&mut self, message: &str) {
-        self.write(Level::Detail, message, message, "");
     }
 
     /// Says what was found in a file.
@@ -252,6 +219,24 @@ impl Console {
     }
 }
 
+impl Messages for Console {
+    fn error(&mut self, message: &str) {
+        self.write(Level::Error, &format!("error: {message}"), message, "");
+    }
+
+    fn warn(&mut self, message: &str) {
+        self.write(Level::Warning, &format!("warning: {message}"), message, "");
+    }
+
+    fn say(&mut self, message: &str) {
+        self.write(Level::Info, message, message, "");
+    }
+
+    fn detail(&mut self, message: &str) {
+        self.write(Level::Detail, message, message, "");
+    }
+}
+
 /// A message without colour codes.
 fn without_escapes(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
@@ -289,43 +274,9 @@ fn progress_text(p: &Progress) -> String {
     parts.join("   ")
 }
 
-/// A number with three digits and a prefix: 1.23 M.
-pub fn scaled(v: f64) -> String {
-    match v {
-        v if v >= 1e9 => format!("{:.2} G", v / 1e9),
-        v if v >= 1e6 => format!("{:.2} M", v / 1e6),
-        v if v >= 1e3 => format!("{:.1} k", v / 1e3),
-        v => format!("{v:.0}"),
-    }
-}
-
-/// A time as m:ss, h:mm:ss or days.
-pub fn clock(t: Duration) -> String {
-    let s = t.as_secs();
-    let (d, h, m, s) = (s / 86_400, s / 3600 % 24, s / 60 % 60, s % 60);
-    if d > 0 {
-        format!("{d}d {h}:{m:02}:{s:02}")
-    } else if h > 0 {
-        format!("{h}:{m:02}:{s:02}")
-    } else {
-        format!("{m}:{s:02}")
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn times_and_rates_read_well() {
-        assert_eq!(clock(Duration::from_secs(5)), "0:05");
-        assert_eq!(clock(Duration::from_secs(3_725)), "1:02:05");
-        assert_eq!(clock(Duration::from_secs(200_000)), "2d 7:33:20");
-        assert_eq!(
-            (scaled(12.4), scaled(1234.0), scaled(2.5e6)),
-            ("12".into(), "1.2 k".into(), "2.50 M".into())
-        );
-    }
 
     #[test]
     fn the_line_names_what_is_known() {

@@ -1,9 +1,13 @@
 //! What is done with saved films alone: adding them, and developing one again.
 
 use crate::console::Console;
-use crate::flags::Arguments;
-use crate::render::{denoiser, logical_cores, overwrites, program, say_missing_folder, say_saved};
-use crate::{BAD_INPUT, FAILED, RENDERED, paths, refuse, tell_findings, with_load_options};
+use crate::{refuse, tell_findings};
+use indigo_front::flags::Arguments;
+use indigo_front::load::with_load_options;
+use indigo_front::messages::{Messages as _, say_saved};
+use indigo_front::prepare::{denoiser, overwrites, say_missing_folder};
+use indigo_front::status::{BAD_INPUT, FAILED, RENDERED};
+use indigo_front::{logical_cores, paths, program};
 use indigo_render::output::{OutputPaths, SaveJob, write_film};
 use indigo_render::pool::with_jobs;
 use indigo_render::saved::{FilmFileError, develop_film, merge_films};

@@ -1,40 +1,26 @@
 //! `indigo_console`: renders a scene from the command line.
 
 mod console;
-mod cpu;
 mod films;
-mod flags;
 mod net;
 mod packs;
-mod paths;
 mod ptest;
 mod render;
-mod saver;
 
-use console::{Console, Verbosity};
-use flags::{Arguments, Role};
-use indigo_decl::Resolver;
+use console::Console;
 use indigo_diag::{Diagnostic, Severity, Sink, SourceMap, summary_to_json, to_json};
-use indigo_igs::Limits;
-use indigo_igs::pack::{MaterialPacks, PackLimits};
-use indigo_render::disk::{DiskResolver, DiskTreeStore};
+use indigo_front::flags::{self, Arguments, Role};
+use indigo_front::load::load_scene;
+use indigo_front::messages::{Messages as _, Verbosity, count};
+use indigo_front::status::{BAD_INPUT, FAILED, RENDERED};
+use indigo_front::{VERSION, cpu, logical_cores, paths};
 use indigo_render::output::write_strategies;
 use indigo_render::pool::with_jobs;
 use indigo_render::saved::read_film;
-use indigo_scene::{LoadOptions, Loaded, Scene, load};
-use std::path::{Path, PathBuf};
+use indigo_scene::{Loaded, Scene};
+use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
-
-/// Name and version, in the form that programs which call this one look for.
-pub const VERSION: &str = concat!("Indigo Renderer v", env!("CARGO_PKG_VERSION"));
-
-/// The picture was rendered.
-const RENDERED: u8 = 0;
-/// Rendering, or reading or writing files, failed.
-const FAILED: u8 = 1;
-/// The scene or the command line is wrong.
-const BAD_INPUT: u8 = 2;
 
 fn main() -> ExitCode {
     if let Err(message) = cpu::check() {
@@ -153,7 +139,7 @@ fn show_strategies(
     console: &mut Console,
 ) -> u8 {
     let seed = arguments.seed.unwrap_or_default();
-    match with_jobs(render::logical_cores(), || write_strategies(scene, seed, passes, picture)) {
+    match with_jobs(logical_cores(), || write_strategies(scene, seed, passes, picture)) {
         Ok(path) => {
             console.say(&format!("Saved {}: {passes} samples per pixel of each picture", path.display()));
             RENDERED
@@ -187,53 +173,6 @@ fn answer(text: &str, console: &mut Console) -> u8 {
 fn refuse(message: &str, console: &mut Console) -> u8 {
     console.error(message);
     BAD_INPUT
-}
-
-/// A scene, and the files that it was read from.
-fn load_scene(path: &str, arguments: &Arguments) -> Result<(Loaded, Vec<PathBuf>), String> {
-    with_load_options(path, arguments, |options| with_jobs(render::logical_cores(), || load(path, options)))
-}
-
-/// Calls `load` with what the command line and this machine add to a scene; what it gives, and the files that it read.
-///
-/// # Errors
-/// Why a packed scene is not read.
-fn with_load_options<T>(
-    scene: &str,
-    arguments: &Arguments,
-    load: impl FnOnce(&LoadOptions) -> T,
-) -> Result<(T, Vec<PathBuf>), String> {
-    let trees = DiskTreeStore::new(paths::tree_cache());
-    with_resolver(scene, |resolver, inifile| {
-        load(&LoadOptions {
-            resolver,
-            trees: &trees,
-            inifile,
-            overrides: &arguments.settings,
-            limits: Limits::default(),
-            check_only: arguments.check || arguments.print_settings,
-        })
-    })
-}
-
-/// Calls `load` with where the files of a scene come from, and the path of the settings file; what it gives, and the
-/// files that were read.
-///
-/// # Errors
-/// Why a packed scene is not read.
-fn with_resolver<T>(
-    scene: &str,
-    load: impl FnOnce(&dyn Resolver, Option<&str>) -> T,
-) -> Result<(T, Vec<PathBuf>), String> {
-    let disk = DiskResolver::new(paths::resource_directories()).for_scene(scene);
-    let resources = DiskResolver::only(paths::resource_directories());
-    let inifile = paths::inifile();
-    let load = |resolver: &dyn Resolver| {
-        load(&MaterialPacks::new(resolver, PackLimits::default()), inifile.as_deref())
-    };
-    let loaded =
-        if packs::is_pack(scene) { load(&packs::open(scene, &disk, &resources)?) } else { load(&disk) };
-    Ok((loaded, disk.files()))
 }
 
 /// Says what was found in a scene, as text or JSON; whether what was asked for arrived.
@@ -279,11 +218,6 @@ fn report(scene: &str, sink: &Sink, sources: &SourceMap, is_check: bool, console
 fn json_report(scene: &str, sink: &Sink, sources: &SourceMap) -> String {
     let lines = found(sink).into_iter().map(|d| to_json(d, sources));
     lines.chain([summary_to_json(scene, sink)]).map(|line| line + "\n").collect()
-}
-
-/// "1 error", "2 errors".
-pub fn count(n: usize, what: &str) -> String {
-    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
 }
 
 fn settings_listing(loaded: &Loaded) -> String {

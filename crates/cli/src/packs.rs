@@ -1,55 +1,20 @@
 //! Packing scenes and unpacking them.
 
 use crate::console::Console;
-use crate::flags::Arguments;
-use crate::{BAD_INPUT, FAILED, RENDERED, count, refuse, tell_findings, with_load_options};
-use indigo_decl::Resolver as _;
-use indigo_igs::pack::{PACK_ENDING, Pack, PackLimits, PackResolver};
+use crate::{refuse, tell_findings};
+use indigo_front::flags::Arguments;
+use indigo_front::load::with_load_options;
+use indigo_front::messages::{Messages as _, count};
+use indigo_front::packs::is_pack;
+use indigo_front::status::{BAD_INPUT, FAILED, RENDERED};
+use indigo_igs::pack::{PACK_ENDING, Pack, PackLimits};
 use indigo_render::atomic::write_atomically;
-use indigo_render::disk::{DiskResolver, read_limited};
+use indigo_render::disk::read_limited;
 use indigo_scene::load_contents;
 use std::cell::Cell;
 use std::fs::File;
-use std::io::{Cursor, Error, ErrorKind, Write as _};
+use std::io::{Error, ErrorKind, Write as _};
 use std::path::Path;
-
-/// Whether a file is a packed scene, by its name.
-pub fn is_pack(path: &str) -> bool {
-    Path::new(path).extension().is_some_and(|ending| ending.eq_ignore_ascii_case(PACK_ENDING))
-}
-
-/// Where the files of a packed scene come from.
-///
-/// # Errors
-/// Why it is not read.
-pub fn open<'a>(
-    path: &'a str,
-    disk: &'a DiskResolver,
-    resources: &'a DiskResolver,
-) -> Result<PackResolver<'a>, String> {
-    let file = disk.read(path, "").map_err(|error| format!("cannot read {path}: {error}"))?;
-    PackResolver::open(path, file.bytes, &PackLimits::default(), disk, resources)
-        .map_err(|error| format!("{path}: {error}"))
-}
-
-/// A scene packed in memory, or the bytes of one that is packed already.
-///
-/// # Errors
-/// Why it cannot be packed.
-pub fn in_memory(scene: &str, arguments: &Arguments) -> Result<Vec<u8>, String> {
-    if is_pack(scene) {
-        return read_limited(Path::new(scene)).map_err(|error| format!("cannot read {scene}: {error}"));
-    }
-    let (packed, _) = with_load_options(scene, arguments, |options| {
-        let loaded = load_contents(scene, options);
-        let contents = loaded.contents.ok_or_else(|| format!("{scene} cannot be packed"))?;
-        let mut bytes = Cursor::new(vec![]);
-        let written = contents.pack(&mut bytes, &loaded.sources, options.resolver);
-        written.map_err(|error| format!("{scene} cannot be packed: {error}"))?;
-        Ok(bytes.into_inner())
-    })?;
-    packed
-}
 
 /// Packs a scene; the exit status.
 pub fn pack(arguments: &Arguments, console: &mut Console) -> u8 {

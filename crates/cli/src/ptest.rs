@@ -1,10 +1,13 @@
 //! `-ptest`: how fast a scene is rendered here, by a fixed amount of work.
 
 use crate::console::Console;
-use crate::flags::Arguments;
-use crate::render::logical_cores;
-use crate::{BAD_INPUT, FAILED, RENDERED, refuse, report, with_resolver};
+use crate::{refuse, report};
 use indigo_diag::quoted;
+use indigo_front::flags::Arguments;
+use indigo_front::load::with_resolver;
+use indigo_front::messages::Messages as _;
+use indigo_front::status::{BAD_INPUT, FAILED, RENDERED};
+use indigo_front::{logical_cores, program};
 use indigo_imaging::develop;
 use indigo_render::pool::with_jobs;
 use indigo_render::{Event, Halt, HaltReason, Options, Session};
@@ -70,7 +73,7 @@ fn measure(path: &str, arguments: &Arguments, console: &mut Console) -> Result<V
     let stats = scene.stats();
     let deciding = scene.identity.settings.iter().map(|(name, value)| format!("{name}={value}"));
     Ok(vec![
-        ("program", crate::render::program(), ""),
+        ("program", program(), ""),
         ("scene", hex(&scene.identity.hash), ""),
         ("settings", deciding.collect::<Vec<_>>().join(" "), ""),
         ("technique", technique(&scene).to_owned(), ""),

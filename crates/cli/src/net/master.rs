@@ -2,13 +2,14 @@
 
 use super::{events, fail, key};
 use crate::console::Console;
-use crate::flags::{Arguments, Role};
-use crate::render::{
-    Prepared, between_lines, describe_film, fail as fail_session, is_interrupted, prepare, program, say_saved,
-};
-use crate::saver::Saver;
-use crate::{BAD_INPUT, FAILED, RENDERED, count, packs, paths};
+use crate::render::{between_lines, catch_interrupts, is_interrupted};
 use indigo_film::SavedFilm;
+use indigo_front::flags::{Arguments, Role};
+use indigo_front::messages::{Messages as _, count, say_saved};
+use indigo_front::prepare::{Prepared, describe_film, fail as fail_session, prepare};
+use indigo_front::saver::Saver;
+use indigo_front::status::{BAD_INPUT, FAILED, RENDERED};
+use indigo_front::{packs, paths, program};
 use indigo_net::event::Event;
 use indigo_net::ledger::Refusal;
 use indigo_net::limits::PORT;
@@ -54,10 +55,11 @@ pub fn master(
             return BAD_INPUT;
         }
     };
-    let prepared = match prepare(scene, read, arguments, saved.as_ref(), named, console) {
+    let prepared = match prepare(Arc::new(scene), read, arguments, saved.as_ref(), named, console) {
         Ok(prepared) => prepared,
         Err(status) => return status,
     };
+    catch_interrupts(console);
     let Prepared { scene, options, job, .. } = &prepared;
     if let Err(error) = check_master(scene, parcel.pack.len() as u64) {
         return fail_session(&error, console);
@@ -96,7 +98,7 @@ pub fn master(
         },
         _ => None,
     };
-    Run { master, own, events, halt: options.halt, started: Instant::now(), saver: Saver::new(job) }
+    Run { master, own, events, halt: options.halt, started: Instant::now(), saver: Saver::new(job.clone()) }
         .follow(between_lines(&scene.output, console), console)
 }
 
@@ -203,16 +205,16 @@ fn complain(refusal: &Refusal, console: &mut Console) {
 }
 
 /// A render of many machines.
-struct Run<'a> {
+struct Run {
     master: Master,
     own: Option<Own>,
     events: Receiver<Event>,
     halt: Halt,
     started: Instant,
-    saver: Saver<'a>,
+    saver: Saver,
 }
 
-impl Run<'_> {
+impl Run {
     /// Until it is to end; the exit status.
     fn follow(mut self, between: Duration, console: &mut Console) -> u8 {
         let mut last_line: Option<Instant> = None;
@@ -247,10 +249,10 @@ impl Run<'_> {
 
     fn save(&mut self, console: &mut Console) {
         let Self { master, own, saver, .. } = self;
-        let version = &saver.job().version;
+        let version = saver.job().version.clone();
         let mut refusal = None;
         let film = || {
-            refusal = own.as_mut().and_then(|own| own.hand_over(master, version).err());
+            refusal = own.as_mut().and_then(|own| own.hand_over(master, &version).err());
             master.copy()
         };
         if let Some(record) = saver.tend(film, console) {

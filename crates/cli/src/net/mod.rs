@@ -8,8 +8,9 @@ pub use master::master;
 pub use slave::slave;
 
 use crate::console::Console;
-use crate::flags::Arguments;
-use crate::{BAD_INPUT, FAILED, RENDERED};
+use indigo_front::flags::Arguments;
+use indigo_front::messages::Messages as _;
+use indigo_front::status::{BAD_INPUT, FAILED, RENDERED};
 use indigo_net::NetError;
 use indigo_net::event::{Event, Sink};
 use indigo_net::key::Key;

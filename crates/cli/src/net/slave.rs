@@ -3,9 +3,11 @@
 use super::scene::SceneLoader;
 use super::{events, fail, key};
 use crate::console::Console;
-use crate::flags::Arguments;
-use crate::render::{catch_interrupts, is_interrupted, logical_cores, program};
-use crate::{BAD_INPUT, FAILED, RENDERED, paths};
+use crate::render::{catch_interrupts, is_interrupted};
+use indigo_front::flags::Arguments;
+use indigo_front::messages::Messages as _;
+use indigo_front::status::{BAD_INPUT, FAILED, RENDERED};
+use indigo_front::{logical_cores, paths, program};
 use indigo_net::slave::{Options, Slave};
 use indigo_scene::schema::settings::MOST_THREADS;
 use std::sync::Arc;

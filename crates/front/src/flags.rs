@@ -10,7 +10,7 @@ mod network;
 mod table;
 mod tasks;
 
-use crate::console::Verbosity;
+use crate::messages::Verbosity;
 use completions::SHELLS;
 pub use completions::completions;
 pub use help::help;

@@ -1,14 +1,13 @@
 //! Saving now and then while rendering goes on.
 
-use crate::console::Console;
-use crate::render::say_saved;
+use crate::messages::{Messages, say_saved};
 use indigo_film::{FilmRecord, SavedFilm};
 use indigo_render::output::{SaveError, SaveJob, Saving};
 use std::time::{Duration, Instant};
 
 /// Saves the picture now and then, one save at a time.
-pub struct Saver<'a> {
-    job: &'a SaveJob,
+pub struct Saver {
+    job: SaveJob,
     period: Duration,
     saving: Option<Underway>,
     last: Instant,
@@ -22,17 +21,17 @@ struct Underway {
     record: Option<FilmRecord>,
 }
 
-impl<'a> Saver<'a> {
+impl Saver {
     /// The first save is due when the period has passed that the scene sets.
-    pub fn new(job: &'a SaveJob) -> Self {
+    pub fn new(job: SaveJob) -> Self {
         let period = job.development.output.image_save_period;
         let period = Duration::try_from_secs_f64(period).unwrap_or(Duration::MAX);
         Self { job, period, saving: None, last: Instant::now(), announced: false, failures: 0 }
     }
 
     /// What is saved.
-    pub fn job(&self) -> &'a SaveJob {
-        self.job
+    pub fn job(&self) -> &SaveJob {
+        &self.job
     }
 
     /// Time until the next save is due. While one is under way the next cannot begin: then it is looked after
@@ -44,42 +43,46 @@ impl<'a> Saver<'a> {
 
     /// Begins a save, of the film that `film` gives, if one is due; the record of the film that was saved meanwhile, if
     /// any was.
-    pub fn tend(&mut self, film: impl FnOnce() -> SavedFilm, console: &mut Console) -> Option<FilmRecord> {
+    pub fn tend(
+        &mut self,
+        film: impl FnOnce() -> SavedFilm,
+        messages: &mut dyn Messages,
+    ) -> Option<FilmRecord> {
         let is_finished = self.saving.as_ref().is_some_and(|underway| underway.saving.is_finished());
-        let saved = if is_finished { self.wait_for_last(console) } else { None };
+        let saved = if is_finished { self.wait_for_last(messages) } else { None };
         if self.saving.is_none() && self.last.elapsed() >= self.period {
             self.last = Instant::now();
             let film = film();
             let record = film.record.clone();
             match self.job.spawn(film) {
                 Ok(saving) => self.saving = Some(Underway { saving, record }),
-                Err(error) => self.complain(&error, console),
+                Err(error) => self.complain(&error, messages),
             }
         }
         saved
     }
 
     /// Waits for a save that has begun; the record of its film, if that is a file now.
-    pub fn wait_for_last(&mut self, console: &mut Console) -> Option<FilmRecord> {
+    pub fn wait_for_last(&mut self, messages: &mut dyn Messages) -> Option<FilmRecord> {
         let Underway { saving, record } = self.saving.take()?;
         let mut saved = saving.finish();
         let has_film = saved.written.contains(&self.job.paths.igi());
         let first_failure = (!saved.failures.is_empty()).then(|| saved.failures.swap_remove(0));
         if let Some(error) = first_failure {
-            self.complain(&error, console);
+            self.complain(&error, messages);
         } else if !self.announced {
             self.announced = true;
-            say_saved(&saved, console);
+            say_saved(&saved, messages);
         }
         record.filter(|_| has_film)
     }
 
     /// A save that fails does not end the render: the disk may have room again later. It is said the
     /// first time and then ever more rarely.
-    fn complain(&mut self, error: &SaveError, console: &mut Console) {
+    fn complain(&mut self, error: &SaveError, messages: &mut dyn Messages) {
         self.failures += 1;
         if self.failures.is_power_of_two() {
-            console.warn(&format!("{error}; rendering goes on, and saving will be tried again"));
+            messages.warn(&format!("{error}; rendering goes on, and saving will be tried again"));
         }
     }
 }
