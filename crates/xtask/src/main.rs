@@ -7,6 +7,7 @@ mod apt;
 mod bench;
 mod bench_machine;
 mod bench_rays;
+mod counts;
 mod display;
 mod documents;
 mod fuzz;
@@ -72,6 +73,12 @@ const COMMANDS: &[Command] = &[
         arguments: "machine|rays|transport|CRATE [ARGUMENTS]",
         about: "benchmarks: scaling with threads, triangles, pixels and so on, rays against Embree, modes of rendering at equal time, or those of one crate",
         run: bench::run,
+    },
+    Command {
+        name: "counts",
+        arguments: "[--update WHY] [KERNEL]",
+        about: "instructions of the kernels for a fixed amount of work beside those on record; --update puts new ones on record",
+        run: counts::run_command,
     },
     Command {
         name: "fuzz",

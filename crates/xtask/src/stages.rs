@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use crate::process::{cargo, run};
-use crate::{Outcome, display, documents, fuzz, generate, tidy, venv};
+use crate::{Outcome, counts, display, documents, fuzz, generate, tidy, venv};
 
 /// Seconds per fuzz target in the full run.
 const FULL_FUZZ_SECONDS: &str = "60";
@@ -43,6 +43,7 @@ pub fn test(arguments: &[String]) -> Outcome {
         for (about, feature) in FURNACES {
             report.stage(about, || furnace(feature));
         }
+        report.stage("instructions", || counts::run_command(&[]));
         report.stage("generated files", || generate::run(&["--check".into()]));
         report.stage("documentation", || documents::run(&[]));
     }
