@@ -1,9 +1,11 @@
 //! Light in media, against closed forms and quadrature.
 
+use std::f64::consts::PI;
+
 use super::super::check::{Check, PATH, TECHNIQUES, THREE};
 use super::super::shapes::{Mesh, model};
 use super::super::text::{basic, henyey_greenstein, medium, scattering, specular, sphere, uniform};
-use super::{AROUND_NITS, SIDE, in_even_light, integral};
+use super::{AROUND_NITS, NITS_PER_UNIFORM, SIDE, in_even_light, integral, looking};
 
 const GROUP: &str = "Media";
 
@@ -16,7 +18,7 @@ fn fog(absorption: f64, coefficient: f64, g: f64) -> String {
 
 /// All of them.
 pub fn checks() -> Vec<Check> {
-    [half_spaces(), vec![single_scattering()]].concat()
+    [half_spaces(), vec![single_scattering()], slabs()].concat()
 }
 
 /// A half space that scatters evenly, in even light: what it shows in a direction is, by reciprocity, the flux that it
@@ -75,4 +77,69 @@ fn single_scattering() -> Check {
         .is(value, 1e-5)
         .by(THREE)
         .effort(512, 1e-2)
+}
+
+/// Thickness of the slab, metres.
+const THICK: f64 = 0.1;
+/// Height of the lamp over the slab, metres: over a thickness its light changes by 2·10⁻⁴.
+const HIGH: f64 = 1000.0;
+/// Spectral radiance of the lamp, W m^-3 sr^-1, and its side in metres.
+const LAMP: (f64, f64) = (1.0e9, 10.0);
+
+/// A slab of fog without surface in parallel light, seen from both sides: light that is scattered once, in closed form
+/// (Chandrasekhar, Radiative Transfer, 1960, section 7).
+fn slabs() -> Vec<Check> {
+    let mut checks = vec![];
+    for (lit, seen, depth, albedo) in
+        [(1.0, 1.0, 0.1, 1.0), (1.0, 0.5, 1.0, 0.8), (0.5, 0.8, 2.0, 0.5), (0.8, 0.8, 1.0, 0.9f64)]
+    {
+        for (behind, words) in [(false, "lit side"), (true, "far side")] {
+            if behind && lit == 1.0 && seen == 1.0 {
+                // There the lamp itself would be seen.
+                continue;
+            }
+            let value = if behind { transmitted(lit, seen, depth) } else { reflected(lit, seen, depth) };
+            let about = "A slab of fog in parallel light, scattered once: ϖ/4π μ₀/(μ₀ ± μ) times what is left of the light on both ways.";
+            let name = format!("slab of depth {depth}, lit at cosine {lit}, {words} at {seen}");
+            let check = Check::new(GROUP, name, about, slab(lit, seen, depth, albedo, behind));
+            let unit = LAMP.0 * NITS_PER_UNIFORM * (LAMP.1 / HIGH).powi(2);
+            let value = albedo / (4.0 * PI) * value;
+            checks.push(check.unit(unit).is(value, 2e-4 * value).by(TECHNIQUES).effort(512, 1e-2));
+        }
+    }
+    checks
+}
+
+fn reflected(lit: f64, seen: f64, depth: f64) -> f64 {
+    lit / (lit + seen) * (1.0 - (-depth * (1.0 / lit + 1.0 / seen)).exp())
+}
+
+fn transmitted(lit: f64, seen: f64, depth: f64) -> f64 {
+    if lit == seen {
+        return depth / seen * (-depth / seen).exp();
+    }
+    lit / (lit - seen) * ((-depth / lit).exp() - (-depth / seen).exp())
+}
+
+/// The slab lies aslant under a lamp right above, and is seen across the plane of the light.
+fn slab(lit: f64, seen: f64, depth: f64, albedo: f64, behind: bool) -> String {
+    let (c, s) = (lit, (1.0 - lit * lit).sqrt());
+    let turn = [c, 0.0, s, 0.0, 1.0, 0.0, -s, 0.0, c];
+    let flat = Mesh::cube(1.0).placed([20.0, 0.0, 0.0, 0.0, 20.0, 0.0, 0.0, 0.0, 0.5 * THICK], 1.0, [0.0; 3]);
+    let mesh = flat.placed(turn, 1.0, [0.0; 3]);
+    let side = if behind { -1.0 } else { 1.0 };
+    let aside = (1.0 - seen * seen).sqrt();
+    let eye = [side * s * seen * 3.0, aside * 3.0, side * c * seen * 3.0];
+    let extinction = depth / THICK;
+    let spectrum = uniform(LAMP.0);
+    let lamp = format!(
+        "<rectanglelight><pos>0 0 {HIGH}</pos><width>{w}</width><height>{w}</height><spectrum>{spectrum}</spectrum></rectanglelight>",
+        w = LAMP.1
+    );
+    let parts = [
+        fog(extinction * (1.0 - albedo), extinction * albedo, 0.0),
+        mesh.text("slab", "m") + &model("slab"),
+        lamp,
+    ];
+    looking(eye, eye.map(|x| -x), 1e-3, "<max_depth>1</max_depth>", &parts)
 }

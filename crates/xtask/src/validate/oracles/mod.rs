@@ -4,8 +4,10 @@ mod colour;
 mod direct;
 mod furnaces;
 mod glass;
+mod lamps;
 mod lens;
 mod media;
+mod metal;
 mod reference;
 mod sky;
 
@@ -28,7 +30,9 @@ pub fn all() -> Vec<Check> {
     [
         furnaces::checks(),
         direct::checks(),
+        lamps::checks(),
         glass::checks(),
+        metal::checks(),
         media::checks(),
         colour::checks(),
         lens::checks(),

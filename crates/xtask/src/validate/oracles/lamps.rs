@@ -1,0 +1,149 @@
+//! Lamps that shine by a file: photometric distributions and pictures.
+
+use std::f64::consts::PI;
+
+use super::super::agreement::exr_of;
+use super::super::check::{Check, PATH, TECHNIQUES};
+use super::super::shapes::{Mesh, Point, mesh_light, model, sub};
+use super::super::text::{grey, sphere, uniform};
+use super::{NITS_PER_UNIFORM, integral, looking};
+
+const GROUP: &str = "Lamps by a file";
+/// Albedo of what is lit.
+const ALBEDO: f64 = 0.5;
+/// Candelas of the lamp from straight ahead to aside, with straight lines between them.
+const CANDELAS: &[(f64, f64)] = &[(0.0, 1000.0), (20.0, 1400.0), (45.0, 600.0), (70.0, 150.0), (90.0, 0.0)];
+
+/// The lamp's file.
+fn photometry() -> Vec<u8> {
+    let list =
+        |of: fn(&(f64, f64)) -> f64| CANDELAS.iter().map(|c| of(c).to_string()).collect::<Vec<_>>().join(" ");
+    let count = CANDELAS.len();
+    format!(
+        "IESNA:LM-63-2002\n[TEST] none\n[TESTLAB] none\n[ISSUEDATE] 2026-01-01\n[MANUFAC] none\nTILT=NONE\n\
+         1 -1 1 {count} 1 1 2 0 0 0\n1 1 1\n{}\n0\n{}\n",
+        list(|c| c.0),
+        list(|c| c.1)
+    )
+    .into_bytes()
+}
+
+/// Candelas at an angle in degrees.
+fn candelas(degrees: f64) -> f64 {
+    let span = CANDELAS.windows(2).find(|w| degrees <= w[1].0);
+    span.map_or(0.0, |w| w[0].1 + (w[1].1 - w[0].1) * (degrees - w[0].0) / (w[1].0 - w[0].0))
+}
+
+/// A lamp of 2 cm at a height, which looks down by the file.
+fn lamp(height: f64) -> String {
+    let profile = "<ies_profile><path>lamp.ies</path></ies_profile>";
+    grey("lamp", 0.0)
+        + &Mesh::square(0.01, 0.0).inside_out().text("lamp", "lamp")
+        + &mesh_light("lamp", &uniform(1.0), [0.0, 0.0, height], 1.0, profile)
+}
+
+/// All of them.
+pub fn checks() -> Vec<Check> {
+    let mut checks = vec![flux()];
+    checks.extend([10.0, 33.0, 60.0].map(below));
+    checks.extend([[0.0, 0.0], [0.8, 0.0], [-0.6, 0.5]].map(picture));
+    checks
+}
+
+/// Light of the whole lamp: what it sends to a ball round it shines evenly from there after the first time.
+fn flux() -> Check {
+    let lumens =
+        2.0 * PI * integral(0.0, 0.5 * PI, 90_000, |theta| candelas(theta.to_degrees()) * theta.sin());
+    let radius = 5.0f64;
+    let area = 4.0 * PI * radius * radius;
+    let luminance = ALBEDO / PI * lumens * ALBEDO / (area * (1.0 - ALBEDO));
+    // The patch behind the lamp gets no light at first hand.
+    let parts = [grey("wall", ALBEDO), sphere([0.0; 3], radius, "wall"), lamp(0.0)];
+    let scene = looking([1.0, 0.0, 1.0], [-0.2, 0.1, 1.0], 0.1, "<max_depth>10000</max_depth>", &parts);
+    let about = format!(
+        "{lumens:.2} lm, the integral of the file's candelas over all directions, in a white ball of albedo ρ = {ALBEDO}: light \
+         that has been reflected shines evenly, ρ² Φ / ((1 − ρ) π A), on a patch that the lamp does not light itself."
+    );
+    // The lamp takes 3·10⁻⁶ of what flies about.
+    with_file(Check::new(GROUP, "flux of a photometric lamp", about, scene).is(luminance, 1e-5 * luminance))
+        .by(TECHNIQUES)
+        .effort(512, 1e-2)
+}
+
+/// The floor two metres below, from where the lamp is seen at an angle.
+fn below(degrees: f64) -> Check {
+    let height = 2.0f64;
+    let (sine, cosine) = degrees.to_radians().sin_cos();
+    let way = height / cosine;
+    let lux = candelas(degrees) * cosine / (way * way);
+    let about = format!("I cos θ / d² with {:.1} cd at {degrees}°.", candelas(degrees));
+    let scene = floor(&lamp(height), [way * sine, 0.0, 0.0]);
+    let value = ALBEDO * lux / PI;
+    // The lamp is 1 cm to each side: 3·10⁻⁵ of d², and no kink of the file lies within its angle.
+    with_file(
+        Check::new(GROUP, format!("photometric lamp at {degrees}°"), about, scene).is(value, 2e-4 * value),
+    )
+    .by(TECHNIQUES)
+    .effort(256, 5e-3)
+}
+
+fn with_file(mut check: Check) -> Check {
+    check.files.push(("lamp.ies".to_owned(), photometry()));
+    check
+}
+
+/// Looks at a point of a floor under a lamp.
+fn floor(lamp: &str, target: Point) -> String {
+    let eye = [target[0] + 3.0, target[1] + 1.0, target[2] + 1.2];
+    let ground = Mesh::square(20.0, 0.0).text("ground", "floor") + &model("ground");
+    looking(eye, sub(target, eye), 2e-3, "", &[grey("floor", ALBEDO), ground, lamp.to_owned()])
+}
+
+/// Spectral radiance of white in the picture, W m^-3 sr^-1.
+const RADIANCE: f64 = 5.0e7;
+/// What its other half has of that.
+const DARKER: f64 = 0.25;
+/// Texels along its side.
+const TEXELS: usize = 256;
+
+/// A square lamp of two metres whose picture is white on one half and grey on the other, one metre above a floor.
+fn picture([x, y]: [f64; 2]) -> Check {
+    let corner = |[a, b]: [f64; 2]| {
+        format!("<vertex pos=\"{a} {b} 0\" uv0=\"{} {}\"/>", 0.5 * (a + 1.0), 0.5 * (b + 1.0))
+    };
+    let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(corner).concat();
+    let texture = "<texture><path>halves.exr</path><exponent>1</exponent></texture>";
+    let lamp = format!(
+        "{}<mesh><name>lamp</name><normal_smoothing>false</normal_smoothing><embedded><expose_uv_set><index>0</index>\
+         <name>default</name></expose_uv_set>{corners}<triangle_set><material_name>lamp</material_name><tri>0 2 1</tri>\
+         <tri>0 3 2</tri></triangle_set></embedded></mesh>{}",
+        grey("lamp", 0.0),
+        mesh_light("lamp", &uniform(RADIANCE), [0.0, 0.0, 1.0], 1.0, texture)
+    );
+    // Texels stand at whole multiples of their distance, from the left edge on, and blend with their neighbours, round the
+    // edge too.
+    let texel = |i: usize| if i % TEXELS < TEXELS / 2 { 1.0 } else { DARKER };
+    let shade = |p: f64| {
+        let at = 0.5 * (p + 1.0) * TEXELS as f64;
+        let (i, beyond) = (at as usize, at.fract());
+        texel(i) * (1.0 - beyond) + texel(i + 1) * beyond
+    };
+    // The integral of 1 / (a + y²)² up to y: a strip of the lamp at a distance whose square is a, 1 m above.
+    let up_to = |a: f64, y: f64| 0.5 / a * (y / (a + y * y) + (y / a.sqrt()).atan() / a.sqrt());
+    let strip = |p: f64| {
+        let a = 1.0 + (p - x) * (p - x);
+        shade(p) * (up_to(a, 1.0 - y) - up_to(a, -1.0 - y))
+    };
+    let value = ALBEDO / PI * RADIANCE * NITS_PER_UNIFORM * integral(-1.0, 1.0, 200_000, strip);
+    let about = format!(
+        "A square lamp of 2 m, 1 m above a floor, whose picture is 1 on the left half and {DARKER} on the right: ∫ L h² / d⁴ dA, \
+         texels blending into their neighbours."
+    );
+    let scene = floor(&lamp, [x, y, 0.0]);
+    let name = format!("lamp with a picture, above ({x}, {y})");
+    // Over the patch that is seen the irradiance bends by 3·10⁻⁴.
+    let mut check = Check::new(GROUP, name, about, scene).is(value, 3e-4 * value).effort(128, 1e-2);
+    let value = |x: usize, _: usize| if x < TEXELS / 2 { 1.0 } else { DARKER as f32 };
+    check.files.push(("halves.exr".to_owned(), exr_of(TEXELS, value)));
+    check.by(if y == 0.0 { TECHNIQUES } else { PATH })
+}
