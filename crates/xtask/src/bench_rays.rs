@@ -13,6 +13,14 @@ use std::process::Command;
 /// # Errors
 /// What could not be installed, found or run, or that the benchmark failed.
 pub fn run(args: &[String]) -> Result<(), String> {
+    run_to_end(command()?.args(args))
+}
+
+/// The benchmark, to which arguments may be added; Embree is installed first.
+///
+/// # Errors
+/// What could not be installed or found.
+pub fn command() -> Result<Command, String> {
     let environment = Path::new("target").join("embree");
     let libraries = match find_libraries(&environment) {
         Some(found) => found,
@@ -24,9 +32,9 @@ pub fn run(args: &[String]) -> Result<(), String> {
     let libraries = fs::canonicalize(&libraries).map_err(|e| format!("{}: {e}", libraries.display()))?;
     let cargo = env::var("CARGO").unwrap_or_else(|_| "cargo".into());
     let mut command = Command::new(cargo);
-    command.args(["bench", "--package", "indigo-geom", "--bench", "rays", "--"]).args(args);
+    command.args(["bench", "--package", "indigo-geom", "--bench", "rays", "--"]);
     command.env("INDIGO_EMBREE_DIR", libraries);
-    run_to_end(&mut command)
+    Ok(command)
 }
 
 fn install(environment: &Path) -> Result<(), String> {

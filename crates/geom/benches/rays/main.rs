@@ -1,7 +1,8 @@
 //! The race: Embree 4 against this crate, one thread, interleaved, best of N.
 //!
 //! `INDIGO_EMBREE_DIR` names the folder of Embree's library (`cargo xtask bench rays` sees to that).
-//! Options: `--check` exits 1 where a target is missed; `--reps N` (9); `--only NAME`.
+//! Options: `--check` exits 1 where a target is missed; `--reps N` (9); `--only NAME`; `--figures` tells each figure in a
+//! line of its own as well, for programs: `figure`, series, name and value between tabs.
 //! Both sides trace with denormal numbers as the processor starts: neither flushes them.
 
 mod embree;
@@ -25,16 +26,18 @@ struct Arguments {
     check: bool,
     reps: usize,
     only: Option<String>,
+    figures: bool,
 }
 
 fn arguments() -> Arguments {
-    let mut parsed = Arguments { check: false, reps: 9, only: None };
+    let mut parsed = Arguments { check: false, reps: 9, only: None, figures: false };
     let mut words = std::env::args().skip(1);
     while let Some(word) = words.next() {
         match word.as_str() {
             "--check" => parsed.check = true,
             "--reps" => parsed.reps = words.next().and_then(|n| n.parse().ok()).unwrap_or(parsed.reps),
             "--only" => parsed.only = words.next(),
+            "--figures" => parsed.figures = true,
             // Cargo adds `--bench`.
             _ => {}
         }
@@ -58,7 +61,7 @@ fn main() -> ExitCode {
     let mut missed = Vec::new();
     let chosen = |s: &BenchScene| arguments.only.as_ref().is_none_or(|name| name == s.name);
     for scene in [scenes::sphere(), scenes::interior(), scenes::thin()].iter().filter(|s| chosen(s)) {
-        race(&embree, scene, arguments.reps, &mut missed);
+        race(&embree, scene, &arguments, &mut missed);
         if scene.name == "sphere" {
             leaks(&embree, scene, &mut missed);
         }
@@ -148,7 +151,7 @@ fn own_contender<'a>(accel: &'a Accel, name: &'static str, builds: [f64; 2]) -> 
     }
 }
 
-fn race(embree: &Embree, scene: &BenchScene, reps: usize, missed: &mut Vec<String>) {
+fn race(embree: &Embree, scene: &BenchScene, arguments: &Arguments, missed: &mut Vec<String>) {
     let mesh = &scene.mesh;
     let seconds = |threads: usize, mode: Mode| {
         let device = embree.device(threads);
@@ -169,9 +172,26 @@ fn race(embree: &Embree, scene: &BenchScene, reps: usize, missed: &mut Vec<Strin
     }
     let sets = scene.ray_sets(&own[0]);
     for (k, set) in sets.iter().enumerate() {
-        time_set(&mut field, k, set, reps);
+        time_set(&mut field, k, set, arguments.reps);
     }
     report(scene, &field, missed);
+    if arguments.figures {
+        for contender in &field {
+            tell(scene, contender);
+        }
+    }
+}
+
+/// The figures of a contender, for programs.
+fn tell(scene: &BenchScene, contender: &Contender) {
+    let figure = |what: &str, value: f64| {
+        println!("figure\trays, {}\t{}: {what}\t{value}", scene.name, contender.name);
+    };
+    for (set, seconds) in SETS.iter().zip(contender.best) {
+        figure(&format!("{set}, rays per second"), scene.rays as f64 / seconds);
+    }
+    figure("build on one thread, s", contender.builds[0]);
+    figure("build on two threads, s", contender.builds[1]);
 }
 
 /// Times one ray set for all contenders in turn: for each short piece of it the shortest of `reps`

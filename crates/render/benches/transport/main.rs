@@ -5,7 +5,8 @@
 //! thread itself used. Options: `--scene NAME|FILE.igs` (may be repeated; all of its own without it), `--mode NAME`
 //! (likewise), `--seconds S` for each mode (20), `--target E` relMSE whose time is wanted (0.01),
 //! `--reference S` seconds for a reference that is not kept yet (240), `--list`, `--export DIR` (writes its scenes as
-//! files, for other renderers: `race_mitsuba.py` beside this file races one of them).
+//! files, for other renderers: `race_mitsuba.py` beside this file races one of them), `--figures` (tells each figure in a
+//! line of its own as well, for programs: `figure`, series, name and value between tabs).
 //!
 //! References are kept in `bench-data/transport`, by the scene's name and a hash of its text. They are made by a mode
 //! that suits the scene, in two halves, whose difference tells their noise.
@@ -36,6 +37,7 @@ struct Arguments {
     reference: f64,
     is_list: bool,
     export: Option<String>,
+    figures: bool,
 }
 
 fn arguments() -> Arguments {
@@ -47,6 +49,7 @@ fn arguments() -> Arguments {
         reference: 240.0,
         is_list: false,
         export: None,
+        figures: false,
     };
     let mut words = std::env::args().skip(1);
     while let Some(word) = words.next() {
@@ -59,6 +62,7 @@ fn arguments() -> Arguments {
             "--target" => parsed.target = number(value()),
             "--reference" => parsed.reference = number(value()),
             "--list" => parsed.is_list = true,
+            "--figures" => parsed.figures = true,
             "--export" => parsed.export = Some(value()),
             // Cargo adds it.
             "--bench" => {}
@@ -146,6 +150,14 @@ fn race(bench: &BenchScene, modes: &[&Mode], arguments: &Arguments) {
         }
         let [_, xyz] = errors(&run.picture(), &reference).map(|e| e * run.seconds / arguments.seconds);
         println!(" {:>11.3e} {:>16}", xyz, time_to(&run.history, arguments.target));
+        if arguments.figures {
+            let figure = |what: &str, value: f64| {
+                println!("figure\ttransport, {}\t{}: {what}\t{value}", bench.name, mode.name);
+            };
+            figure("samples per second", run.samples as f64 / run.seconds);
+            figure("rays per second", run.rays() as f64 / run.seconds);
+            figure(&format!("relMSE of XYZ after {} s", arguments.seconds), xyz);
+        }
     }
 }
 

@@ -4,6 +4,7 @@
 //! Seconds belong to a machine and to what else it does, so that they gate nothing: a run is compared with a named earlier
 //! one, ratios first. All figures are the console's own (`-ptest`), the median of a few runs.
 
+mod others;
 mod page;
 mod series;
 
@@ -16,9 +17,10 @@ use serde_json::{Value, json};
 use crate::validate::check::Renderer;
 use crate::validate::console::{Console, write_scene};
 use crate::{Outcome, process};
+use others::OTHERS;
 use series::{Point, SERIES, Series};
 
-const USAGE: &str = "usage: cargo xtask bench machine [--name NAME] [--against RUN.json] [--only SERIES] [--repeat N] [--console PROGRAM]";
+const USAGE: &str = "usage: cargo xtask bench machine [--name NAME] [--against RUN.json] [--full | --only SERIES] [--repeat N] [--console PROGRAM]";
 /// Runs of each point, of which the median counts.
 const REPEAT: usize = 3;
 
@@ -39,16 +41,27 @@ struct Options {
     name: String,
     against: Option<PathBuf>,
     only: Option<String>,
+    full: bool,
     repeat: usize,
     console: Option<PathBuf>,
 }
 
 impl Options {
     fn parse(arguments: &[String]) -> Result<Self, String> {
-        let mut options =
-            Self { name: "machine".into(), against: None, only: None, repeat: REPEAT, console: None };
+        let mut options = Self {
+            name: "machine".into(),
+            against: None,
+            only: None,
+            full: false,
+            repeat: REPEAT,
+            console: None,
+        };
         let mut words = arguments.iter();
         while let Some(word) = words.next() {
+            if word == "--full" {
+                options.full = true;
+                continue;
+            }
             let value = words.next().ok_or(USAGE)?.clone();
             match word.as_str() {
                 "--name" => options.name = value,
@@ -80,6 +93,11 @@ pub fn run(arguments: &[String]) -> Outcome {
             figures.extend(measure(&console, series, &point, options.repeat)?);
         }
     }
+    for other in OTHERS {
+        if options.only.as_ref().map_or(options.full, |only| other.name == only) {
+            figures.extend(other.measure()?);
+        }
+    }
     if figures.is_empty() {
         return Err(format!("no series of that name; there are {}", names().join(", ")));
     }
@@ -98,7 +116,7 @@ pub fn run(arguments: &[String]) -> Outcome {
 }
 
 fn names() -> Vec<&'static str> {
-    SERIES.iter().map(|series| series.name).collect()
+    SERIES.iter().map(|series| series.name).chain(OTHERS.iter().map(|other| other.name)).collect()
 }
 
 fn to_json(figure: &Figure) -> Value {
@@ -144,7 +162,14 @@ fn read(path: &Path) -> Result<Earlier, String> {
 fn measure(console: &Console, series: &Series, point: &Point, repeat: usize) -> Result<Vec<Figure>, String> {
     let folder = console.folder.join(format!("{}-{}", series.name, point.x));
     let scene = write_scene(&folder, &point.scene, &point.files, Renderer::Path)?;
-    let runs = (0..repeat).map(|_| once(console, &scene, point)).collect::<Result<Vec<_>, _>>()?;
+    let saves = series.figures.contains(&SAVE);
+    let run = |_| {
+        let mut values = once(console, &scene, point)?;
+        // A run of its own, which costs time: only where it is asked for.
+        values.push(if saves { save_seconds(console, &scene, point)? } else { 0.0 });
+        Ok(values)
+    };
+    let runs = (0..repeat).map(run).collect::<Result<Vec<_>, String>>()?;
     let figure = |(i, name): (usize, &&str)| {
         let mut values: Vec<f64> = runs.iter().map(|run| run[i]).collect();
         values.sort_by(f64::total_cmp);
@@ -169,7 +194,27 @@ const FIGURES: &[&str] = &[
     "first_pixel_s",
     "develop_s",
     "peak_memory_mb",
+    SAVE,
 ];
+const SAVE: &str = "develop_and_save_s";
+
+/// Seconds to develop the film and to save the picture, the untonemapped one and the film.
+fn save_seconds(console: &Console, scene: &Path, point: &Point) -> Result<f64, String> {
+    let mut command = Command::new(&console.program);
+    command.arg(scene).args(["-verbose", "-haltspp", "1", "-t", &point.threads.to_string()]);
+    command.arg("-o").arg(scene.with_extension("png"));
+    let output = command.output().map_err(|error| format!("{}: {error}", scene.display()))?;
+    let said = [output.stdout, output.stderr].concat();
+    seconds_told(&String::from_utf8_lossy(&said))
+        .filter(|_| output.status.success())
+        .ok_or_else(|| format!("{}: the console does not tell how long saving took", scene.display()))
+}
+
+/// The console's "Developed and saved in 1.23 s".
+fn seconds_told(text: &str) -> Option<f64> {
+    let (_, after) = text.split_once("Developed and saved in ")?;
+    after.split_ascii_whitespace().next()?.parse().ok()
+}
 
 fn once(console: &Console, scene: &Path, point: &Point) -> Result<Vec<f64>, String> {
     let fault = |why: &dyn std::fmt::Display| format!("{}: {why}", scene.display());
@@ -264,6 +309,12 @@ mod tests {
         for series in SERIES {
             assert!(series.figures.iter().all(|name| FIGURES.contains(name)), "{}", series.name);
         }
+    }
+
+    #[test]
+    fn the_time_of_saving_is_read() {
+        assert_eq!(seconds_told("x\nDeveloped and saved in 0.42 s\n"), Some(0.42));
+        assert_eq!(seconds_told("saved"), None);
     }
 
     #[test]

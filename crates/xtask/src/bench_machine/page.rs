@@ -47,7 +47,21 @@ pub fn page(run: &Value, figures: &[Figure], earlier: Option<&Earlier>) -> Strin
         page += &table(&own, earlier);
         page += "</article>";
     }
+    page += &others(figures, earlier);
     page + "</main></body></html>\n"
+}
+
+/// Tables of figures that grow with nothing: those of benchmarks of their own.
+fn others(figures: &[Figure], earlier: Option<&Earlier>) -> String {
+    let is_other = |figure: &&Figure| SERIES.iter().all(|series| series.name != figure.series);
+    let all: Vec<&Figure> = figures.iter().filter(is_other).collect();
+    let groups = all.chunk_by(|a, b| a.series == b.series);
+    groups
+        .map(|group| {
+            let heading = format!("<h2>{}</h2><article>", group[0].series);
+            [&heading, &table(group, earlier), "</article>"].concat()
+        })
+        .collect()
 }
 
 fn words(figure: &str) -> String {

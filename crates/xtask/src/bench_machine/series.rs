@@ -55,7 +55,13 @@ pub const SERIES: &[Series] = &[
     Series {
         name: "pixels",
         axis: "pixels",
-        figures: &["samples_per_second", "first_pixel_s", "develop_s", "peak_memory_mb"],
+        figures: &[
+            "samples_per_second",
+            "first_pixel_s",
+            "develop_s",
+            "develop_and_save_s",
+            "peak_memory_mb",
+        ],
         points: pixels,
     },
 ];
