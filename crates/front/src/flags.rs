@@ -32,7 +32,7 @@ pub enum Role {
 }
 
 /// The command line, understood.
-#[derive(Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own on the command line")]
 pub struct Arguments {
     /// The scene; with `merge`, `tone_map`, `pack` or `unpack` all files instead.

@@ -34,6 +34,11 @@ impl Saver {
         &self.job
     }
 
+    /// The same, to be changed from the next save on.
+    pub fn job_mut(&mut self) -> &mut SaveJob {
+        &mut self.job
+    }
+
     /// Time until the next save is due. While one is under way the next cannot begin: then it is looked after
     /// as often as the system lets a thread sleep and wake without effort.
     pub fn until_due(&self) -> Duration {

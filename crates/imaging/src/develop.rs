@@ -1,5 +1,6 @@
 //! Developing: the steps from film to picture in their order.
 
+use crate::diffraction::means;
 use crate::downsize::{downsize, extent};
 use crate::tonemap::ToneMapper;
 use crate::white_balance::plain_rgb;
@@ -22,6 +23,13 @@ pub fn on_sensor(mut image: XyzImage, settings: &PictureSettings) -> XyzImage {
         diffraction.apply(&mut image, region);
     }
     image
+}
+
+/// The light on the sensor without super-sampling, as means over output pixels: a quarter of the work or less for a picture
+/// that is developed again and again while somebody looks for the right settings. It differs from the picture of all internal
+/// pixels where a bright edge crosses an output pixel. Runs on the caller's rayon pool.
+pub fn preview_light(image: &XyzImage) -> Option<XyzImage> {
+    means(image, Region::whole(image.size))
 }
 
 /// Makes the picture of the light on the sensor ([`on_sensor`]).

@@ -21,6 +21,8 @@
 mod output_pixels;
 mod spread;
 
+pub(crate) use output_pixels::means;
+
 use crate::Region;
 use crate::convolution::{Plane, Room, Spectrum, Symmetry};
 use crate::downsize::extent;

@@ -38,7 +38,9 @@ mod window;
 
 pub use bloom::Bloom;
 pub use camera_facts::CameraFacts;
-pub use develop::{coverage, develop, develop_image, from_linear, linear_picture, on_sensor, untonemapped};
+pub use develop::{
+    coverage, develop, develop_image, from_linear, linear_picture, on_sensor, preview_light, untonemapped,
+};
 pub use diffraction::Diffraction;
 pub use error::ImagingError;
 pub use facts::Content;

@@ -45,6 +45,11 @@ impl WhiteBalance {
         }
     }
 
+    /// The CIE 1931 chromaticity (x, y) of the white.
+    pub fn white_xy(&self) -> [f64; 2] {
+        self.white_xy
+    }
+
     /// From XYZ of the film to white-balanced linear Rec. 709.
     pub(crate) fn to_rgb(self) -> Matrix {
         Matrix::new(&(Mat3::from_rows(XYZ_TO_RGB) * self.adaptation))

@@ -2,7 +2,8 @@
 
 use indigo_film::{FilmFilter, FilmSize, FilmState, Filter, LayerKind, XyzImage};
 use indigo_imaging::{
-    Exposure, PictureSettings, Region, ToneMapping, develop, develop_image, linear_picture, untonemapped,
+    Exposure, PictureSettings, Region, ToneMapping, develop, develop_image, linear_picture, preview_light,
+    untonemapped,
 };
 use indigo_math::{Real, Vec2};
 
@@ -32,6 +33,21 @@ fn image(size: FilmSize, value: impl Fn(u32, u32) -> (f32, f32)) -> XyzImage {
     };
     let pixels: Vec<_> = (0..h).flat_map(|y| (0..w).map(move |x| (x, y))).map(|(x, y)| pixel(x, y)).collect();
     XyzImage { size, missing: vec![false; pixels.len()], pixels }
+}
+
+/// Means over output pixels, which the box filter takes, too: where nothing is brighter than white both pictures are the same.
+#[test]
+fn a_preview_is_the_picture_without_super_sampling() {
+    let full = image(size(5, 4, 3), |x, y| ((x * 7 + y * 3) as f32 / 200.0, (x % 2) as f32));
+    let small = preview_light(&full).expect("the picture is not empty");
+    assert_eq!(small.size, size(5, 4, 1));
+    let settings = settings(Filter::Box);
+    let (a, b) = (develop_image(&full, &settings), develop_image(&small, &settings));
+    assert_eq!((a.width, a.height), (b.width, b.height));
+    for (a, b) in a.pixels.as_flattened().iter().zip(b.pixels.as_flattened()) {
+        // Sums of nine single-precision numbers in another order.
+        assert!((a - b).abs() < 1e-5, "{a} {b}");
+    }
 }
 
 #[test]

@@ -69,6 +69,17 @@ impl From<SaveError> for Saved {
     }
 }
 
+/// One of the files that can be made of a film.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OneFile {
+    /// The picture as PNG.
+    Picture,
+    /// The luminances as EXR.
+    Luminances,
+    /// The film.
+    Film,
+}
+
 /// What a picture is saved with besides the film.
 #[derive(Clone)]
 pub struct SaveJob {
@@ -103,7 +114,40 @@ impl SaveJob {
         all
     }
 
-    /// The same of a film that is developed already, but neither the film nor what its layers tell.
+    /// Writes one file to a path, whatever else the scene asks for.
+    ///
+    /// # Errors
+    /// What keeps it from being written; a file that was there before is untouched then.
+    pub fn save_as(&self, saved: &SavedFilm, what: OneFile, path: &Path) -> Result<PathBuf, SaveError> {
+        let settings = &self.development.picture;
+        with_jobs(self.threads, || {
+            if what == OneFile::Film {
+                let record = saved.record.clone().unwrap_or_default();
+                return write_film(path, &saved.film, &record);
+            }
+            let light = saved.film.develop();
+            let metadata = metadata::of(self, light.size, saved.record.as_ref());
+            let image = on_sensor(light, settings);
+            let content = match (settings.foreground_alpha, what) {
+                (true, _) => Content::Coverage,
+                (false, OneFile::Picture) => Content::Developed,
+                (false, _) => Content::Luminances,
+            };
+            let metadata = said(&metadata, content);
+            let bytes = match what {
+                OneFile::Picture => {
+                    png::encode(&develop_image(&image, settings), &metadata, self.development.output.png)
+                }
+                _ if settings.foreground_alpha => {
+                    exr::encode_display_linear(&linear_picture(&image, settings), &metadata)
+                }
+                _ => exr::encode(&linear_picture(&image, settings), &metadata),
+            };
+            encoded(path, bytes)
+        })
+    }
+
+    /// Writes the files of a film that is developed already, but neither the film nor what its layers tell.
     pub fn save_developed(&self, film: DevelopedFilm) -> Saved {
         with_jobs(self.threads, || {
             let mut all = Saved::default();

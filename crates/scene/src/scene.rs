@@ -3,7 +3,7 @@
 use indigo_camera::Camera;
 use indigo_film::{FilmFilter, FilmSize, Filter};
 use indigo_geom::{Accel, SurfacePoint};
-use indigo_imaging::{CameraFacts, PictureSettings, png};
+use indigo_imaging::{CameraFacts, ImagingError, PictureSettings, Region, png};
 use indigo_light::LightTable;
 use indigo_math::Real;
 use indigo_scatter::{Interface, Material, MaterialContext, Medium, MediumStack};
@@ -71,6 +71,14 @@ pub const DIFFRACTION_OF_RAYS: &str = "diffraction of rays";
 
 /// The name of the setting of an [`Identity`] that is `true` where the film holds what hides the background and no light.
 pub const FOREGROUND_ALPHA: &str = "render_foreground_alpha";
+
+/// The name of the setting of an [`Identity`] that tells the part of the picture that is rendered.
+pub(crate) const RENDER_REGION: &str = "render_region";
+
+/// The value of that setting.
+pub(crate) fn region_in_words(region: Option<[[u32; 2]; 2]>) -> String {
+    region.map_or_else(|| "the whole".to_owned(), |[x, y]| format!("{x:?} {y:?}"))
+}
 
 /// What a film must have been rendered from to be of the same picture.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -223,6 +231,22 @@ impl Scene {
             camera: self.camera_facts,
             output: self.output.clone(),
         }
+    }
+
+    /// Renders another part of the picture from now on, or all of it: first column and row, and those after the last.
+    ///
+    /// # Errors
+    /// The part is empty, or leaves the picture; then nothing changes.
+    pub fn set_region(&mut self, part: Option<[[u32; 2]; 2]>) -> Result<(), ImagingError> {
+        let region = part.map(|[start, end]| Region::new(start, end, self.film.size)).transpose()?;
+        self.film.region = part.map(|[[x1, y1], [x2, y2]]| [[x1, x2], [y1, y2]]);
+        self.picture.region = region;
+        for (name, value) in &mut self.identity.settings {
+            if name == RENDER_REGION {
+                *value = region_in_words(self.film.region);
+            }
+        }
+        Ok(())
     }
 
     /// How much the scene holds.

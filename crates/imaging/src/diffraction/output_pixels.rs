@@ -7,7 +7,7 @@ use indigo_math::pages::fresh;
 use rayon::prelude::*;
 
 /// The means of X, Y and Z over the output pixels of a region, as a picture of its size; `None` where it is empty.
-pub(super) fn means(image: &XyzImage, region: Region) -> Option<XyzImage> {
+pub(crate) fn means(image: &XyzImage, region: Region) -> Option<XyzImage> {
     let window = Window::of(image.size, region);
     let factor = image.size.super_sample() as usize;
     let (width, height) = (window.width / factor, window.height / factor);

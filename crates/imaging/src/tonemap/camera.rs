@@ -60,6 +60,12 @@ impl Response {
         &self.name
     }
 
+    /// The brightness in [0, 1] that a channel (red, green, blue) gives for a relative irradiance, as its file has it:
+    /// with the display's transfer function.
+    pub fn brightness(&self, channel: usize, irradiance: f32) -> f32 {
+        self.curves[channel.min(2)].eval(irradiance)
+    }
+
     /// The response of a display: what the sensor gathers is shown as it is, up to saturation.
     pub fn display() -> Self {
         const POINTS: u16 = 1024;

@@ -6,7 +6,8 @@ use super::common::text::{background, camera, flat_camera, grey, scene_file, set
 use super::common::{Region, film, measure_regions, scene};
 use indigo_film::SavedFilm;
 use indigo_formats::image::{Image, Pixels, decode};
-use indigo_render::output::{OutputPaths, SaveJob};
+use indigo_render::output::{OneFile, OutputPaths, SaveJob};
+use indigo_render::saved::blank_record;
 use indigo_scene::Scene;
 use indigo_testkit::stats::Moments;
 use std::path::PathBuf;
@@ -33,25 +34,52 @@ fn scratch(name: &str) -> PathBuf {
     directory
 }
 
-/// The untonemapped EXR that saving a scene's film writes to the disk.
-fn saved_exr(scene: &Scene, passes: u64, name: &str) -> Image {
-    let film = film(scene, 5, passes);
-    let directory = scratch(name);
-    let paths = OutputPaths::new(directory.join("x.png"));
-    let exr = paths.pictures().untonemapped_exr;
-    let job = SaveJob {
+/// How a scene's film is saved.
+fn job(scene: &Scene, png: PathBuf) -> SaveJob {
+    SaveJob {
         development: scene.development(),
-        paths,
+        paths: OutputPaths::new(png),
         version: "test".to_owned(),
         threads: 1,
         first_hits: None,
         denoiser: None,
-    };
+    }
+}
+
+/// The untonemapped EXR that saving a scene's film writes to the disk.
+fn saved_exr(scene: &Scene, passes: u64, name: &str) -> Image {
+    let film = film(scene, 5, passes);
+    let directory = scratch(name);
+    let job = job(scene, directory.join("x.png"));
+    let exr = job.paths.pictures().untonemapped_exr;
     let saved = job.save(&SavedFilm { film, record: None });
     assert!(saved.written.contains(&exr) && saved.failures.is_empty(), "{saved:?}");
     let image = decode("x.exr", &std::fs::read(&exr).expect("the file is there")).expect("it is an EXR");
     std::fs::remove_dir_all(directory).expect("the test's own files");
     image
+}
+
+#[test]
+fn one_file_that_is_asked_for_is_the_same_as_among_all() {
+    let scene =
+        surroundings("", "<save_untonemapped_exr>true</save_untonemapped_exr><save_igi>true</save_igi>");
+    let directory = scratch("one");
+    let job = job(&scene, directory.join("x.png"));
+    let saved = SavedFilm { film: film(&scene, 5, 4), record: Some(blank_record(&scene, "test")) };
+    assert!(job.save(&saved).failures.is_empty());
+    let pictures = job.paths.pictures();
+    let files = [
+        (OneFile::Picture, pictures.png),
+        (OneFile::Luminances, pictures.untonemapped_exr),
+        (OneFile::Film, job.paths.igi()),
+    ];
+    for (what, among_all) in files {
+        let alone = directory.join("folder").join("alone");
+        assert_eq!(job.save_as(&saved, what, &alone).expect("it is written"), alone);
+        let bytes = |path: &PathBuf| std::fs::read(path).expect("the file is there");
+        assert!(bytes(&alone) == bytes(&among_all), "{what:?}");
+    }
+    std::fs::remove_dir_all(directory).expect("the test's own files");
 }
 
 /// Luminances of a linear Rec. 709 picture; the weights are those of ITU-R BT.709 in full precision.

@@ -3,7 +3,10 @@
 use super::Context;
 use super::camera::Unfocused;
 use crate::codes;
-use crate::scene::{DIFFRACTION_OF_RAYS, FOREGROUND_ALPHA, FilmSettings, OutputSettings, TransportSettings};
+use crate::scene::{
+    DIFFRACTION_OF_RAYS, FOREGROUND_ALPHA, FilmSettings, OutputSettings, RENDER_REGION, TransportSettings,
+    region_in_words,
+};
 use crate::settings::Settings;
 use indigo_decl::Node;
 use indigo_diag::{Diagnostic, Sink};
@@ -67,7 +70,6 @@ pub(super) fn decisive(
     transport: &TransportSettings,
 ) -> Vec<(String, String)> {
     let size = film.size;
-    let region = film.region.map_or_else(|| "the whole".to_owned(), |[x, y]| format!("{x:?} {y:?}"));
     // Only Metropolis sampling looks at it.
     let rejections = transport.metropolis.map_or(0, |m| m.max_consecutive_rejections);
     let by_rays = settings.bool("aperture_diffraction") && !settings.bool("post_process_diffraction");
@@ -77,7 +79,7 @@ pub(super) fn decisive(
         ("width", size.width().to_string()),
         ("height", size.height().to_string()),
         ("super_sample_factor", size.super_sample().to_string()),
-        ("render_region", region),
+        (RENDER_REGION, region_in_words(film.region)),
         ("splat_filter", film.splat.to_string()),
         ("ray_origin_nudge_distance", settings.real("ray_origin_nudge_distance").to_string()),
         ("vignetting", settings.bool("vignetting").to_string()),

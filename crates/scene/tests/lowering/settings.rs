@@ -53,6 +53,23 @@ fn pictures_of_impossible_size() {
 }
 
 #[test]
+fn a_region_that_is_set_later_is_the_same_as_one_of_the_file() {
+    let text = format!("{HEAD}{CAMERA}</scene>");
+    let part = "<width>64</width><render_region><x1>3</x1><y1>1</y1><x2>20</x2><y2>9</y2></render_region>";
+    let wanted = loaded(&text.replace("<width>64</width>", part)).scene.unwrap();
+    let mut scene = loaded(&text).scene.unwrap();
+    let whole = scene.identity.settings.clone();
+    assert!(scene.set_region(Some([[3, 1], [65, 9]])).is_err());
+    assert_eq!(scene.film.region, None, "what is wrong changes nothing");
+    scene.set_region(Some([[3, 1], [20, 9]])).unwrap();
+    assert_eq!(scene.film.region, wanted.film.region);
+    assert_eq!(scene.picture.region, wanted.picture.region);
+    assert_eq!(scene.identity.settings, wanted.identity.settings);
+    scene.set_region(None).unwrap();
+    assert_eq!((scene.film.region, &scene.identity.settings), (None, &whole));
+}
+
+#[test]
 fn names_defined_twice_and_scenes_without_light_or_tone_mapping() {
     let white = "<material><name>white</name><null_material/></material>";
     expect_one(white, "white", "W0302");
