@@ -1,0 +1,361 @@
+//! The window: it hands what happens to the panels, and what they ask for to the engine.
+
+use crate::comparison;
+use crate::engine::{Command, Engine, Phase, Request, Shown};
+use crate::log::{Line, Weight};
+use crate::panels::{self, Textures};
+use crate::recent::Recent;
+use crate::scene_file::SceneFile;
+use crate::state::{Action, Ask, Picture, State};
+use crate::{theme, words};
+use eframe::egui::{
+    self, CentralPanel, ColorImage, Context, Frame, Margin, Panel, TextureFilter, TextureOptions, Ui,
+    ViewportCommand,
+};
+use indigo_front::flags::Arguments;
+use indigo_render::output::OneFile;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
+
+/// Where the files that were opened lately are remembered.
+const RECENT: &str = "recent";
+
+/// What comes back from threads that wait for the user or a disk.
+enum Answer {
+    /// A path for what was asked.
+    Path(Ask, PathBuf),
+    /// A picture to compare with.
+    Comparison(PathBuf, Result<ColorImage, String>),
+    /// The elements of a scene.
+    Elements(Box<Result<SceneFile, String>>),
+    /// What was written into a scene.
+    Written(Result<Vec<PathBuf>, String>),
+}
+
+/// See the module.
+pub struct App {
+    state: State,
+    engine: Option<Engine>,
+    textures: Textures,
+    answers: Receiver<Answer>,
+    answer: Sender<Answer>,
+    /// Whether the engine has ended.
+    is_gone: bool,
+}
+
+impl App {
+    /// A window that begins with what the command line says.
+    pub fn new(context: &eframe::CreationContext<'_>, arguments: Arguments) -> Self {
+        theme::set(&context.egui_ctx);
+        let recent = context.storage.and_then(|storage| storage.get_string(RECENT)).unwrap_or_default();
+        let mut state = State::new(arguments, Recent::from_text(&recent));
+        let engine = Engine::new(&context.egui_ctx)
+            .map_err(|error| state.log.add(Line { weight: Weight::Error, text: error.to_string() }))
+            .ok();
+        if let Some(path) = state.arguments.files.first().cloned() {
+            state.act(Action::Open(path.into()));
+        }
+        let (answer, answers) = channel();
+        Self { state, engine, textures: Textures::default(), answers, answer, is_gone: false }
+    }
+
+    fn send(&self, command: Command) {
+        if let Some(engine) = &self.engine {
+            engine.send(command);
+        }
+    }
+
+    /// Everything that has come since the last frame.
+    fn hear(&mut self, context: &Context) {
+        if let Some(engine) = &self.engine {
+            for update in engine.news() {
+                self.state.take(update);
+            }
+            if let Some(shown) = engine.desk.take() {
+                self.show(shown, context);
+            }
+        }
+        for answer in self.answers.try_iter().collect::<Vec<_>>() {
+            match answer {
+                Answer::Path(ask, path) => self.asked(ask, path, context),
+                Answer::Comparison(path, Ok(image)) => {
+                    self.textures.other = Some(context.load_texture("other", image.clone(), options()));
+                    self.state.comparison.picture = Some((path, Arc::new(image)));
+                    if self.state.comparison.layout == comparison::Layout::Off {
+                        self.state.comparison.layout = comparison::Layout::Wipe;
+                    }
+                }
+                Answer::Elements(file) => match *file {
+                    Ok(file) => self.state.file = Some(file),
+                    Err(text) => self.complain(text),
+                },
+                Answer::Written(Ok(files)) => self.tell_written(&files),
+                Answer::Comparison(_, Err(text)) | Answer::Written(Err(text)) => self.complain(text),
+            }
+        }
+        let dropped = context.input(|input| input.raw.dropped_files.clone());
+        for file in dropped {
+            self.state.act(Action::Open(file.path().to_path_buf()));
+        }
+    }
+
+    fn complain(&mut self, text: String) {
+        self.state.log.add(Line { weight: Weight::Error, text });
+    }
+
+    fn tell_written(&mut self, files: &[PathBuf]) {
+        for file in files {
+            self.state.log.add(Line { weight: Weight::Info, text: words::saved(file) });
+        }
+    }
+
+    fn read_elements(&mut self, context: &Context) {
+        let Some(path) = self.state.path.clone() else { return };
+        let (answer, context) = (self.answer.clone(), context.clone());
+        self.spawn("elements", move || {
+            drop(answer.send(Answer::Elements(Box::new(SceneFile::read(&path)))));
+            context.request_repaint();
+        });
+    }
+
+    /// Writes changed elements, and loads the scene with them.
+    fn save_elements(&mut self) {
+        let Some(file) = &self.state.file else { return };
+        match file.save() {
+            Ok(files) => {
+                self.tell_written(&files);
+                self.state.file = None;
+                self.state.act(Action::Restart);
+            }
+            Err(text) => self.complain(text),
+        }
+    }
+
+    fn write_settings(&mut self, context: &Context) {
+        let (Some(path), Some(controls)) = (self.state.path.clone(), self.state.controls.clone()) else {
+            return;
+        };
+        let (answer, context) = (self.answer.clone(), context.clone());
+        self.spawn("settings", move || {
+            let written = SceneFile::read(&path).and_then(|file| file.save_controls(&controls));
+            drop(answer.send(Answer::Written(written)));
+            context.request_repaint();
+        });
+    }
+
+    fn show(&mut self, shown: Shown, context: &Context) {
+        let image = Arc::clone(&shown.image);
+        match &mut self.textures.render {
+            Some(texture) if texture.size() == image.size => texture.set(image, options()),
+            texture => *texture = Some(context.load_texture("render", image, options())),
+        }
+        self.state.picture = Some(Picture {
+            size: shown.image.size,
+            image: shown.image,
+            histogram: shown.histogram,
+            light: shown.light,
+            lux_seconds_per_nit: shown.lux_seconds_per_nit,
+            time: shown.time,
+        });
+    }
+
+    /// Does all that was asked for.
+    fn act(&mut self, context: &Context) {
+        for action in std::mem::take(&mut self.state.actions) {
+            match action {
+                Action::Command(command) => self.command(command),
+                Action::Open(path) => {
+                    // Who opens a scene wants that one next.
+                    self.state.queue.runs = false;
+                    self.open(&path, true);
+                }
+                Action::Ask(ask) => self.ask(ask, context),
+                Action::Restart => {
+                    if let Some(request) = self.state.request_in_mode() {
+                        self.load(request);
+                    } else if let Some(path) = self.state.path.clone() {
+                        self.open(Path::new(&path), false);
+                    }
+                }
+                Action::ReadElements => self.read_elements(context),
+                Action::SaveElements => self.save_elements(),
+                Action::WriteSettings => self.write_settings(context),
+                Action::RunQueue => self.run_queue(),
+                Action::Close => {
+                    self.is_gone = true;
+                    context.send_viewport_cmd(ViewportCommand::Close);
+                }
+            }
+        }
+    }
+
+    fn command(&mut self, command: Command) {
+        if let (Command::SetPicture(picture), Some(engine)) = (&command, &self.engine) {
+            engine.desk.set_settings((**picture).clone());
+        }
+        self.send(command);
+    }
+
+    /// Opens a scene or a film, by its ending.
+    fn open(&mut self, path: &Path, starts: bool) {
+        let is_film = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("igi"));
+        if is_film {
+            self.send(Command::OpenFilm(path.to_path_buf()));
+            self.state.recent.add(path);
+        } else if let Some(path) = path.to_str() {
+            self.load(self.state.request(path, starts));
+        } else {
+            self.complain(words::not_text(path));
+        }
+    }
+
+    fn load(&mut self, request: Request) {
+        self.state.path = Some(request.path.clone());
+        self.send(Command::Open(Box::new(request)));
+    }
+
+    fn run_queue(&mut self) {
+        let Some(path) = self.state.queue.next() else { return };
+        match path.to_str() {
+            Some(text) => {
+                let halts_at = Some(self.state.queue.halts_at);
+                let request = Request { halts_at, ..self.state.request(text, true) };
+                self.load(request);
+            }
+            None => {
+                self.complain(words::not_text(&path));
+                self.state.queue.done();
+            }
+        }
+    }
+
+    /// Asks for a path by the desktop's own dialog, on a thread that waits for it.
+    fn ask(&mut self, ask: Ask, context: &Context) {
+        let dialog = rfd::AsyncFileDialog::new();
+        let folder = self.state.path.as_deref().and_then(|path| Path::new(path).parent());
+        let dialog = match folder.filter(|folder| folder.is_dir()) {
+            Some(folder) => dialog.set_directory(folder),
+            None => dialog,
+        };
+        let stem = self.state.path.as_deref().and_then(|path| Path::new(path).file_stem());
+        let name = |ending: &str| format!("{}.{ending}", stem.unwrap_or_default().to_string_lossy());
+        let scenes = &["igs", "pigs"];
+        let asked: std::pin::Pin<Box<dyn Future<Output = Option<rfd::FileHandle>> + Send>> = match ask {
+            Ask::Open => {
+                Box::pin(dialog.add_filter(words::SCENES_AND_FILMS, &["igs", "pigs", "igi"]).pick_file())
+            }
+            Ask::Queue => Box::pin(dialog.add_filter(words::SCENES, scenes).pick_file()),
+            Ask::Compare => {
+                Box::pin(dialog.add_filter(words::PICTURES, &["png", "exr", "jpg", "tif", "hdr"]).pick_file())
+            }
+            Ask::Save(what) => {
+                let ending = words::ending(what);
+                Box::pin(dialog.add_filter(ending, &[ending]).set_file_name(name(ending)).save_file())
+            }
+        };
+        let (answer, context) = (self.answer.clone(), context.clone());
+        let waiting = move || {
+            if let Some(file) = pollster::block_on(asked) {
+                // The window may be closed by now.
+                drop(answer.send(Answer::Path(ask, file.path().to_path_buf())));
+                context.request_repaint();
+            }
+        };
+        self.spawn("dialog", waiting);
+    }
+
+    fn asked(&mut self, ask: Ask, path: PathBuf, context: &Context) {
+        match ask {
+            Ask::Open => self.state.act(Action::Open(path)),
+            Ask::Queue => self.state.queue.add(path),
+            Ask::Save(what) => {
+                let path = with_ending(path, what);
+                self.send(Command::Save(what, path));
+            }
+            Ask::Compare => {
+                let (answer, context) = (self.answer.clone(), context.clone());
+                self.spawn("compare", move || {
+                    let read = comparison::read(&path);
+                    drop(answer.send(Answer::Comparison(path, read)));
+                    context.request_repaint();
+                });
+            }
+        }
+    }
+
+    fn spawn(&mut self, name: &str, work: impl FnOnce() + Send + 'static) {
+        if let Err(error) = std::thread::Builder::new().name(name.to_owned()).spawn(work) {
+            self.complain(error.to_string());
+        }
+    }
+
+    /// A render is not lost by closing the window.
+    fn tend_closing(&mut self, context: &Context) {
+        if !context.input(|input| input.viewport().close_requested()) || self.is_gone {
+            return;
+        }
+        if matches!(self.state.phase, Phase::Rendering | Phase::Paused) {
+            context.send_viewport_cmd(ViewportCommand::CancelClose);
+            self.state.asks_to_close = true;
+        }
+    }
+}
+
+impl eframe::App for App {
+    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        let context = ui.ctx().clone();
+        self.hear(&context);
+        panels::keys(&context, &mut self.state);
+        let bar = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(8, 0));
+        let state = &mut self.state;
+        Panel::top("tools").exact_size(theme::TOOL_BAR).frame(bar).show(ui, |ui| panels::toolbar(ui, state));
+        Panel::bottom("status").exact_size(theme::LINE).frame(bar).show(ui, |ui| panels::status(ui, state));
+        Panel::bottom("foot").exact_size(theme::FOOT).show(ui, |ui| panels::foot(ui, state));
+        Panel::right("side").exact_size(theme::SIDE).show(ui, |ui| panels::side(ui, state));
+        let textures = &self.textures;
+        let middle = Frame::central_panel(ui.style()).inner_margin(0);
+        CentralPanel::default().frame(middle).show(ui, |ui| panels::picture(ui, state, textures));
+        panels::ask_to_close(&context, &mut self.state);
+        if std::mem::take(&mut self.state.wants_other_theme) {
+            context.set_theme(if ui.visuals().dark_mode { egui::Theme::Light } else { egui::Theme::Dark });
+        }
+        self.tend_closing(&context);
+        self.act(&context);
+        let title = self.state.path.as_deref().map_or_else(|| words::PROGRAM.to_owned(), words::title);
+        if self.state.title != title {
+            self.state.title.clone_from(&title);
+            context.send_viewport_cmd(ViewportCommand::Title(title));
+        }
+    }
+
+    fn save(&mut self, storage: &mut dyn eframe::Storage) {
+        storage.set_string(RECENT, self.state.recent.to_text());
+    }
+}
+
+/// Pixels are seen as squares when they are large, and averaged when they are small.
+fn options() -> TextureOptions {
+    TextureOptions {
+        magnification: TextureFilter::Nearest,
+        minification: TextureFilter::Linear,
+        mipmap_mode: Some(TextureFilter::Linear),
+        ..TextureOptions::LINEAR
+    }
+}
+
+/// What has no ending gets that of its kind.
+fn with_ending(path: PathBuf, what: OneFile) -> PathBuf {
+    if path.extension().is_some() { path } else { path.with_extension(words::ending(what)) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_get_the_ending_of_their_kind() {
+        assert_eq!(with_ending("a/b".into(), OneFile::Luminances), PathBuf::from("a/b.exr"));
+        assert_eq!(with_ending("a/b.PNG".into(), OneFile::Picture), PathBuf::from("a/b.PNG"));
+    }
+}

@@ -1,0 +1,247 @@
+//! Developing the film for the screen, again and again, on a thread of its own.
+//!
+//! A picture that is super-sampled is developed twice when a control moves: first from means over its output pixels, which
+//! takes a quarter of the time or less and differs only where bright edges cross pixels, then wholly, unless the next
+//! change has come meanwhile.
+
+use eframe::egui::{Color32, ColorImage};
+use indigo_film::{FilmState, XyzImage};
+use indigo_front::logical_cores;
+use indigo_imaging::{Picture, PictureSettings, develop_image, on_sensor, preview_light};
+use indigo_render::pool::with_jobs;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+/// Bins of a histogram.
+pub const BINS: usize = 128;
+
+/// How often each brightness is there, for red, green and blue; the largest of all is 1.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Histogram(pub [[f32; BINS]; 3]);
+
+/// A picture to look at.
+pub struct Shown {
+    /// Its pixels.
+    pub image: Arc<ColorImage>,
+    /// How often each brightness is there.
+    pub histogram: Histogram,
+    /// The light on the sensor, a value for each pixel of the picture: XYZ in cd/m².
+    pub light: Arc<XyzImage>,
+    /// From cd/m² to lux·s on the sensor.
+    pub lux_seconds_per_nit: f64,
+    /// How long developing took.
+    pub time: Duration,
+}
+
+/// What is to be developed next.
+#[derive(Default)]
+struct Slot {
+    film: Option<Arc<FilmState>>,
+    settings: Option<PictureSettings>,
+    closed: bool,
+}
+
+/// Where films and settings go, and pictures come from.
+#[derive(Default)]
+pub struct Desk {
+    slot: Mutex<Slot>,
+    changed: Condvar,
+    shown: Mutex<Option<Shown>>,
+    /// What the last new film took, in microseconds.
+    cost: AtomicU64,
+}
+
+/// What is kept between pictures.
+#[derive(Default)]
+struct Kept {
+    settings: Option<PictureSettings>,
+    /// The light of the film, where it may be diffracted or not.
+    film: Option<Arc<FilmState>>,
+    /// The light on the sensor, whether it is diffracted, and the same without super-sampling.
+    sensor: Option<(XyzImage, bool, Arc<XyzImage>)>,
+}
+
+impl Desk {
+    fn slot(&self) -> MutexGuard<'_, Slot> {
+        self.slot.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Shows another film from now on.
+    pub fn set_film(&self, film: Arc<FilmState>) {
+        self.slot().film = Some(film);
+        self.changed.notify_all();
+    }
+
+    /// Develops by other settings from now on.
+    pub fn set_settings(&self, settings: PictureSettings) {
+        self.slot().settings = Some(settings);
+        self.changed.notify_all();
+    }
+
+    /// A picture that has been developed since the last call.
+    pub fn take(&self) -> Option<Shown> {
+        self.shown.lock().unwrap_or_else(PoisonError::into_inner).take()
+    }
+
+    /// What developing the last new film took.
+    pub fn last_cost(&self) -> Duration {
+        Duration::from_micros(self.cost.load(Ordering::Relaxed))
+    }
+
+    /// Ends the work.
+    pub fn close(&self) {
+        self.slot().closed = true;
+        self.changed.notify_all();
+    }
+
+    /// Develops until closed, and calls `wake` for each picture.
+    pub fn work(&self, wake: &dyn Fn()) {
+        let mut kept = Kept::default();
+        while let Some((film, settings)) = self.next() {
+            let start = Instant::now();
+            let is_new_film = film.is_some();
+            kept.film = film.or(kept.film);
+            kept.settings = settings.or(kept.settings);
+            let (Some(film), Some(settings)) = (&kept.film, kept.settings.clone()) else { continue };
+            let is_diffracted = settings.diffraction.is_some();
+            if is_new_film || kept.sensor.as_ref().is_none_or(|sensor| sensor.1 != is_diffracted) {
+                kept.sensor = with_jobs(logical_cores(), || sensor(film, &settings));
+            }
+            let Some((full, _, small)) = &kept.sensor else { continue };
+            let is_small_enough = full.size.super_sample() == 1;
+            if !is_new_film && !is_small_enough {
+                self.show(small, small, &settings, start, wake);
+            }
+            if is_new_film || is_small_enough || !self.has_next() {
+                self.show(full, small, &settings, start, wake);
+                if is_new_film {
+                    self.cost.store(start.elapsed().as_micros() as u64, Ordering::Relaxed);
+                }
+            }
+        }
+    }
+
+    /// Waits for something to do; `None` after the end.
+    fn next(&self) -> Option<(Option<Arc<FilmState>>, Option<PictureSettings>)> {
+        let mut slot = self.slot();
+        loop {
+            if slot.closed {
+                return None;
+            }
+            if slot.film.is_some() || slot.settings.is_some() {
+                return Some((slot.film.take(), slot.settings.take()));
+            }
+            slot = self.changed.wait(slot).unwrap_or_else(PoisonError::into_inner);
+        }
+    }
+
+    fn has_next(&self) -> bool {
+        let slot = self.slot();
+        slot.closed || slot.film.is_some() || slot.settings.is_some()
+    }
+
+    fn show(
+        &self,
+        from: &XyzImage,
+        light: &Arc<XyzImage>,
+        settings: &PictureSettings,
+        start: Instant,
+        wake: &dyn Fn(),
+    ) {
+        let (image, histogram) = with_jobs(logical_cores(), || on_screen(&develop_image(from, settings)));
+        let shown = Shown {
+            image: Arc::new(image),
+            histogram,
+            light: Arc::clone(light),
+            lux_seconds_per_nit: settings.exposure.lux_seconds_per_nit(),
+            time: start.elapsed(),
+        };
+        *self.shown.lock().unwrap_or_else(PoisonError::into_inner) = Some(shown);
+        wake();
+    }
+}
+
+fn sensor(film: &FilmState, settings: &PictureSettings) -> Option<(XyzImage, bool, Arc<XyzImage>)> {
+    let full = on_sensor(film.develop(), settings);
+    let small = preview_light(&full)?;
+    Some((full, settings.diffraction.is_some(), Arc::new(small)))
+}
+
+fn on_screen(picture: &Picture) -> (ColorImage, Histogram) {
+    let codes = picture.to_screen();
+    let histogram = histogram(&codes);
+    let pixels = codes.iter().map(|&[r, g, b, _]| Color32::from_rgb(r, g, b)).collect();
+    (ColorImage::new([picture.width as usize, picture.height as usize], pixels), histogram)
+}
+
+fn histogram(codes: &[[u8; 4]]) -> Histogram {
+    let mut counts = [[0u32; BINS]; 3];
+    for code in codes {
+        for (counts, &value) in counts.iter_mut().zip(code) {
+            counts[usize::from(value) * BINS / 256] += 1;
+        }
+    }
+    // Black and white are often so many that nothing else would be seen.
+    let inner = counts.iter().flat_map(|counts| &counts[1..BINS - 1]).max().copied().unwrap_or(0);
+    Histogram(counts.map(|counts| counts.map(|n| (n as f32 / inner.max(1) as f32).min(1.0))))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use indigo_film::{FilmSize, LayerKind};
+    use indigo_imaging::{Exposure, ToneMapping};
+    use std::sync::mpsc::channel;
+
+    fn settings(scale: f64) -> PictureSettings {
+        let exposure = Exposure { aperture_area: 1.0, lens_sensor_dist: 1.0, duration: 1.0 };
+        PictureSettings::plain(ToneMapping::Linear { scale }, exposure)
+    }
+
+    /// A film of even light of so many cd/m².
+    fn film(luminance: f64, super_sample: u32) -> Arc<FilmState> {
+        let size = FilmSize::new(4, 3, super_sample).unwrap();
+        let mut film = FilmState::new(size, &[(LayerKind::PerPixel, "camera")]);
+        film.layers[0].sums.fill([0.9505, 1.0, 1.089, 1.0].map(|v| v * luminance));
+        film.layers[0].counts.fill(1.0);
+        Arc::new(film)
+    }
+
+    #[test]
+    fn each_change_is_shown_in_the_end() {
+        let desk = Desk::default();
+        let (woken, waking) = channel();
+        std::thread::scope(|scope| {
+            scope.spawn(|| desk.work(&move || _ = woken.send(())));
+            let wait = || {
+                waking.recv_timeout(Duration::from_secs(60)).expect("a picture");
+                desk.take()
+            };
+            desk.set_settings(settings(0.25));
+            desk.set_film(film(1.0, 2));
+            let first = wait().expect("a picture");
+            // 0.25 of full light is code 137.
+            assert_eq!(first.image.pixels[5].r(), 137);
+            assert_eq!(first.light.pixels.len(), 12);
+            assert!((first.light.pixels[0][1] - 1.0).abs() < 1e-6);
+            desk.set_settings(settings(0.5));
+            let second = wait().expect("a preview");
+            assert_eq!(second.image.pixels[5].r(), 188);
+            wait();
+            desk.set_film(film(2.0, 2));
+            assert_eq!(wait().expect("a picture").image.pixels[5].r(), 255);
+            desk.close();
+        });
+    }
+
+    #[test]
+    fn black_and_white_do_not_hide_the_rest() {
+        let mut codes = vec![[0, 0, 0, 255]; 1000];
+        codes.extend([[100, 100, 200, 255]; 10]);
+        codes.extend([[100, 100, 100, 255]; 10]);
+        let Histogram([red, _, blue]) = histogram(&codes);
+        assert_eq!((red[0], red[50], red[51]), (1.0, 1.0, 0.0));
+        assert_eq!((blue[50], blue[100]), (0.5, 0.5));
+    }
+}

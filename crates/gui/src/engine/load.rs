@@ -1,0 +1,117 @@
+//! Loading scenes, each on a thread of its own, which nobody need wait for.
+
+use super::{Command, Request};
+use crate::log::{Finding, Gathered, Line, Weight, findings};
+use indigo_diag::SourceMap;
+use indigo_film::{FilmSize, SavedFilm};
+use indigo_front::load::load_scene;
+use indigo_imaging::PictureSettings;
+use indigo_render::saved::read_film;
+use indigo_scene::{OutputSettings, Scene, SceneStats, TransportSettings};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::mpsc::Sender;
+use std::time::Instant;
+
+/// What became of a scene.
+pub struct Outcome {
+    /// What was asked for.
+    pub request: Request,
+    /// The scene, if it can be rendered.
+    pub scene: Option<Arc<Scene>>,
+    /// The files that it was read from.
+    pub read: Vec<PathBuf>,
+    /// The film to go on with.
+    pub film: Option<SavedFilm>,
+    /// What was found.
+    pub findings: Vec<Finding>,
+    /// All files.
+    pub sources: Arc<SourceMap>,
+    /// What else to tell.
+    pub lines: Vec<Line>,
+}
+
+/// What the window shows of a scene.
+#[derive(Clone, Debug)]
+pub struct LoadedFacts {
+    /// Its path.
+    pub path: String,
+    /// Resolution.
+    pub size: FilmSize,
+    /// How much it holds.
+    pub stats: SceneStats,
+    /// Number of media.
+    pub media: usize,
+    /// How the picture is made.
+    pub picture: PictureSettings,
+    /// What is written, and when.
+    pub output: OutputSettings,
+    /// How light is transported.
+    pub transport: TransportSettings,
+    /// The part that is rendered: first column and row, and those after the last.
+    pub region: Option<[[u32; 2]; 2]>,
+}
+
+impl LoadedFacts {
+    /// Of a scene.
+    pub fn of(scene: &Scene) -> Self {
+        Self {
+            path: scene.output.scene_path.clone(),
+            size: scene.film.size,
+            stats: scene.stats(),
+            // The first is air.
+            media: scene.media.len().saturating_sub(1),
+            picture: scene.picture.clone(),
+            output: scene.output.clone(),
+            transport: scene.transport,
+            region: scene.film.region.map(|[[x1, x2], [y1, y2]]| [[x1, y1], [x2, y2]]),
+        }
+    }
+}
+
+/// Starts to load; what comes of it is sent with the ticket.
+pub fn spawn(ticket: u64, request: Request, to: Sender<Command>) -> std::io::Result<()> {
+    let thread = std::thread::Builder::new().name("load".to_owned());
+    thread.spawn(move || {
+        let outcome = load(request);
+        // The engine may have ended.
+        drop(to.send(Command::Loaded(ticket, Box::new(outcome))));
+    })?;
+    Ok(())
+}
+
+fn load(request: Request) -> Outcome {
+    let start = Instant::now();
+    let mut messages = Gathered::default();
+    let empty = |request, lines| Outcome {
+        request,
+        scene: None,
+        read: vec![],
+        film: None,
+        findings: vec![],
+        sources: Arc::default(),
+        lines,
+    };
+    let film = match request.film.as_deref().map(read_film).transpose() {
+        Ok(film) => film,
+        Err(error) => return empty(request, vec![Line { weight: Weight::Error, text: error.to_string() }]),
+    };
+    match load_scene(&request.path, &request.arguments) {
+        Ok((loaded, read)) => {
+            let seconds = start.elapsed().as_secs_f64();
+            messages
+                .0
+                .push(Line { weight: Weight::Info, text: crate::words::loaded(&request.path, seconds) });
+            Outcome {
+                request,
+                scene: loaded.scene.map(Arc::new),
+                read,
+                film,
+                findings: findings(&loaded.sink, &loaded.sources),
+                sources: Arc::new(loaded.sources),
+                lines: messages.0,
+            }
+        }
+        Err(message) => empty(request, vec![Line { weight: Weight::Error, text: message }]),
+    }
+}

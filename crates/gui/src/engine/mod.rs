@@ -1,0 +1,176 @@
+//! What works behind the window: loading, rendering and saving on one thread, developing on another. The window sends
+//! commands and reads what comes of them; it never waits for either.
+
+mod develop;
+mod load;
+mod worker;
+
+pub use develop::{Desk, Histogram, Shown};
+pub use load::LoadedFacts;
+
+use crate::log::{Finding, Line};
+use crate::work::Work;
+use eframe::egui;
+use indigo_diag::SourceMap;
+use indigo_front::flags::Arguments;
+use indigo_imaging::PictureSettings;
+use indigo_render::output::OneFile;
+use indigo_render::{HaltReason, Progress};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread::JoinHandle;
+
+/// What the window asks for.
+pub enum Command {
+    /// Load a scene.
+    Open(Box<Request>),
+    /// Do not wait for the scene that is being loaded.
+    Cancel,
+    /// A scene was loaded, or not. From a thread that loads.
+    Loaded(u64, Box<load::Outcome>),
+    /// Look at a film, or go on with it where it is of the scene.
+    OpenFilm(PathBuf),
+    /// Begin to render, or go on with the film that is there.
+    Start(Work),
+    /// Let the threads rest.
+    Pause,
+    /// Go on after a rest.
+    Resume,
+    /// End the render, with all its files.
+    Stop,
+    /// Go on with the same film under other conditions.
+    Adjust(Work),
+    /// Render a part of the picture, or all of it; what is there is lost.
+    SetRegion(Option<[[u32; 2]; 2]>, Work),
+    /// The picture is developed like this when it is saved.
+    SetPicture(Box<PictureSettings>),
+    /// Write all files of the render now.
+    SaveAll,
+    /// Write one file.
+    Save(OneFile, PathBuf),
+    /// End it all, with all files or without.
+    Quit {
+        /// Whether the render's files are written.
+        saves: bool,
+    },
+}
+
+/// A scene to load.
+#[derive(Clone, Debug)]
+pub struct Request {
+    /// Its path.
+    pub path: String,
+    /// What the command line says, with what the window adds.
+    pub arguments: Arguments,
+    /// The film to go on with.
+    pub film: Option<PathBuf>,
+    /// Whether to render at once.
+    pub starts: bool,
+    /// Samples per pixel at which to halt where the scene has no condition of its own.
+    pub halts_at: Option<u64>,
+}
+
+/// What the engine is at.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum Phase {
+    /// Nothing is open.
+    #[default]
+    Empty,
+    /// A scene is being loaded.
+    Loading,
+    /// A scene can be rendered.
+    Ready,
+    /// It is.
+    Rendering,
+    /// It rests.
+    Paused,
+    /// The last samples are gathered and the files written.
+    Ending,
+    /// The render has ended.
+    Halted(HaltReason),
+}
+
+/// What the window is told.
+pub enum Update {
+    /// What the engine is at now.
+    Phase(Phase),
+    /// A scene is there.
+    Scene(Box<LoadedFacts>),
+    /// What was found in the files of a scene, whether or not it can be rendered.
+    Findings(Vec<Finding>, Arc<SourceMap>),
+    /// A film is looked at that is of no scene.
+    Film(Box<PictureSettings>, PathBuf),
+    /// How far the render is, and the memory that the program holds, in bytes.
+    Progress(Progress, Option<u64>),
+    /// Something to tell.
+    Line(Line),
+    /// The scene of the queue is done.
+    Done,
+    /// Everything has ended: the window may close.
+    Gone,
+}
+
+/// Where the engine's news go.
+#[derive(Clone)]
+pub struct Outlet {
+    updates: Sender<Update>,
+    context: egui::Context,
+}
+
+impl Outlet {
+    /// Sends news and wakes the window.
+    pub fn send(&self, update: Update) {
+        // Without a window nobody wants to know.
+        drop(self.updates.send(update));
+        self.context.request_repaint();
+    }
+}
+
+/// The engine, as the window holds it.
+pub struct Engine {
+    commands: Sender<Command>,
+    updates: Receiver<Update>,
+    /// Where pictures are developed.
+    pub desk: Arc<Desk>,
+    threads: Vec<JoinHandle<()>>,
+}
+
+impl Engine {
+    /// Starts its threads.
+    pub fn new(context: &egui::Context) -> std::io::Result<Self> {
+        let (commands, orders) = channel();
+        let (news, updates) = channel();
+        let outlet = Outlet { updates: news, context: context.clone() };
+        let desk = Arc::new(Desk::default());
+        let developing = Arc::clone(&desk);
+        let wake = context.clone();
+        let named = |name: &str| std::thread::Builder::new().name(name.to_owned());
+        let developer = named("develop").spawn(move || developing.work(&|| wake.request_repaint()))?;
+        let worker = worker::Worker::new(orders, commands.clone(), outlet, Arc::clone(&desk));
+        let worker = named("engine").spawn(move || worker.work())?;
+        Ok(Self { commands, updates, desk, threads: vec![developer, worker] })
+    }
+
+    /// Asks for something.
+    pub fn send(&self, command: Command) {
+        // Without an engine there is nothing to be done; it only ends when the window does.
+        drop(self.commands.send(command));
+    }
+
+    /// All news since the last call.
+    pub fn news(&self) -> Vec<Update> {
+        self.updates.try_iter().collect()
+    }
+}
+
+impl Drop for Engine {
+    fn drop(&mut self) {
+        self.send(Command::Quit { saves: false });
+        self.desk.close();
+        for thread in self.threads.drain(..) {
+            // Nobody is left to hear of a failure.
+            drop(thread.join());
+        }
+    }
+}

@@ -1,0 +1,332 @@
+//! The engine's own thread: it holds the scene and the running session.
+
+mod run;
+
+use super::{Command, Desk, LoadedFacts, Outlet, Phase, Request, Update, load};
+use crate::log::{Gathered, Line, Weight};
+use crate::words;
+use crate::work::Work;
+use indigo_film::SavedFilm;
+use indigo_front::messages::{Messages as _, say_saved};
+use indigo_imaging::{Exposure, PictureSettings, ToneMapping};
+use indigo_render::Session;
+use indigo_render::output::{OneFile, OutputPaths, SaveJob};
+use indigo_render::saved::read_film;
+use indigo_scene::Scene;
+use run::Run;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender};
+use std::time::Duration;
+
+/// How long a command may wait while a scene is rendered.
+const PULSE: Duration = Duration::from_millis(40);
+
+/// A scene that is open.
+struct Open {
+    scene: Arc<Scene>,
+    read: Vec<PathBuf>,
+    request: Request,
+}
+
+/// See the module.
+pub struct Worker {
+    orders: Receiver<Command>,
+    /// For threads that load.
+    to_self: Sender<Command>,
+    outlet: Outlet,
+    desk: Arc<Desk>,
+    /// Number of the last scene that was asked for; what comes of others is not wanted any more.
+    ticket: u64,
+    open: Option<Open>,
+    run: Option<Run>,
+    /// The film of the last render, or one that was opened.
+    film: Option<Arc<SavedFilm>>,
+    picture: Option<PictureSettings>,
+}
+
+impl Worker {
+    /// A worker that takes orders.
+    pub fn new(orders: Receiver<Command>, to_self: Sender<Command>, outlet: Outlet, desk: Arc<Desk>) -> Self {
+        Self { orders, to_self, outlet, desk, ticket: 0, open: None, run: None, film: None, picture: None }
+    }
+
+    /// Works until told to quit.
+    pub fn work(mut self) {
+        loop {
+            let is_at_work = self.run.as_ref().is_some_and(|run| !run.is_at_rest());
+            let order = if is_at_work { self.orders.try_recv().ok() } else { self.orders.recv().ok() };
+            match order {
+                Some(Command::Quit { saves }) => return self.quit(saves),
+                Some(order) => self.obey(order),
+                None if is_at_work => self.render_on(),
+                // Nobody is left to give orders.
+                None => return,
+            }
+        }
+    }
+
+    fn obey(&mut self, order: Command) {
+        match order {
+            Command::Open(request) => self.open(*request),
+            Command::Cancel => self.cancel(),
+            Command::Loaded(ticket, outcome) if ticket == self.ticket => self.loaded(*outcome),
+            // Another was asked for meanwhile, or none.
+            Command::Loaded(..) | Command::Quit { .. } => {}
+            Command::OpenFilm(path) => self.open_film(&path),
+            Command::Start(work) => self.start(&work),
+            Command::Pause => self.with_run(Run::pause),
+            Command::Resume => self.with_run(Run::resume),
+            Command::Stop => self.stop(true),
+            Command::Adjust(work) => self.adjust(&work),
+            Command::SetRegion(region, work) => self.set_region(region, &work),
+            Command::SetPicture(picture) => {
+                if let Some(run) = &mut self.run {
+                    run.set_picture(&picture);
+                }
+                self.picture = Some(*picture);
+            }
+            Command::SaveAll => self.save_all(),
+            Command::Save(what, path) => self.save(what, path),
+        }
+    }
+
+    fn with_run(&mut self, act: impl FnOnce(&mut Run, &Outlet)) {
+        if let Some(run) = &mut self.run {
+            act(run, &self.outlet);
+        }
+    }
+
+    fn say(&self, weight: Weight, text: String) {
+        self.outlet.send(Update::Line(Line { weight, text }));
+    }
+
+    fn tell(&self, lines: Vec<Line>) {
+        for line in lines {
+            self.outlet.send(Update::Line(line));
+        }
+    }
+
+    /// What the engine is at when nothing is rendered.
+    fn at_rest(&self) -> Phase {
+        if self.open.is_some() { Phase::Ready } else { Phase::Empty }
+    }
+
+    fn open(&mut self, request: Request) {
+        self.stop(true);
+        self.ticket += 1;
+        self.outlet.send(Update::Phase(Phase::Loading));
+        if let Err(error) = load::spawn(self.ticket, request, self.to_self.clone()) {
+            self.say(Weight::Error, error.to_string());
+            self.outlet.send(Update::Phase(self.at_rest()));
+        }
+    }
+
+    fn cancel(&mut self) {
+        self.ticket += 1;
+        self.say(Weight::Info, words::CANCELLED.to_owned());
+        self.outlet.send(Update::Phase(self.at_rest()));
+        self.outlet.send(Update::Done);
+    }
+
+    fn loaded(&mut self, outcome: load::Outcome) {
+        self.tell(outcome.lines);
+        self.outlet.send(Update::Findings(outcome.findings, outcome.sources));
+        let Some(scene) = outcome.scene else {
+            self.say(Weight::Error, words::not_rendered(&outcome.request.path));
+            self.outlet.send(Update::Phase(self.at_rest()));
+            self.outlet.send(Update::Done);
+            return;
+        };
+        let facts = LoadedFacts::of(&scene);
+        let mut work = Work::of(&facts.output, outcome.request.arguments.halt_error);
+        if let Some(samples) = outcome.request.halts_at {
+            work.halt_by(samples);
+        }
+        self.picture = Some(facts.picture.clone());
+        self.desk.set_settings(facts.picture.clone());
+        self.film = outcome.film.map(Arc::new);
+        let starts = outcome.request.starts;
+        self.open = Some(Open { scene, read: outcome.read, request: outcome.request });
+        self.outlet.send(Update::Scene(Box::new(facts)));
+        self.outlet.send(Update::Phase(Phase::Ready));
+        if starts {
+            self.start(&work);
+        }
+    }
+
+    /// A film of the scene that is open is gone on with at the next start; any other is only looked at.
+    fn open_film(&mut self, path: &std::path::Path) {
+        let film = match read_film(path) {
+            Ok(film) => Arc::new(film),
+            Err(error) => return self.say(Weight::Error, error.to_string()),
+        };
+        self.stop(true);
+        self.desk.set_film(Arc::new(film.film.clone()));
+        let fits = self.open.as_ref().map(|open| Session::check(&open.scene, &film).map(|_| ()));
+        match fits {
+            Some(Ok(())) => {
+                self.say(Weight::Info, words::goes_on_with(path));
+                self.outlet.send(Update::Phase(Phase::Ready));
+            }
+            other => {
+                if let Some(Err(error)) = other {
+                    self.say(Weight::Warning, words::only_looked_at(path, &error.to_string()));
+                }
+                self.open = None;
+                let picture = plain_picture();
+                self.picture = Some(picture.clone());
+                self.desk.set_settings(picture.clone());
+                self.outlet.send(Update::Film(Box::new(picture), path.to_path_buf()));
+                self.outlet.send(Update::Phase(Phase::Empty));
+            }
+        }
+        self.film = Some(film);
+    }
+
+    fn start(&mut self, work: &Work) {
+        let Some(open) = &self.open else { return };
+        if self.run.is_some() {
+            return;
+        }
+        let mut messages = Gathered::default();
+        let begun = Run::begin(open, work, self.film.as_deref(), self.picture.as_ref(), &mut messages);
+        self.tell(messages.0);
+        match begun {
+            Some(run) => {
+                self.run = Some(run);
+                self.outlet.send(Update::Phase(Phase::Rendering));
+            }
+            None => {
+                self.outlet.send(Update::Phase(Phase::Ready));
+                self.outlet.send(Update::Done);
+            }
+        }
+    }
+
+    fn render_on(&mut self) {
+        let Some(run) = &mut self.run else { return };
+        if let Some(reason) = run.go_on(PULSE, &self.outlet, &self.desk) {
+            self.end(reason, true);
+        }
+    }
+
+    /// Ends the render that is under way, if any.
+    fn stop(&mut self, saves: bool) {
+        let Some(run) = &mut self.run else { return };
+        self.outlet.send(Update::Phase(Phase::Ending));
+        let reason = run.stop();
+        self.end(reason, saves);
+    }
+
+    fn end(&mut self, reason: indigo_render::HaltReason, saves: bool) {
+        let Some(run) = self.run.take() else { return };
+        let mut messages = Gathered::default();
+        let film = Arc::new(run.end(&reason, saves, &self.outlet, &mut messages));
+        self.desk.set_film(Arc::new(film.film.clone()));
+        self.film = Some(film);
+        self.tell(messages.0);
+        self.outlet.send(Update::Phase(Phase::Halted(reason)));
+        self.outlet.send(Update::Done);
+    }
+
+    /// Goes on with the same film under other conditions.
+    fn adjust(&mut self, work: &Work) {
+        let Some(run) = &mut self.run else { return };
+        let mut messages = Gathered::default();
+        let went = run.adjust(work, &mut messages);
+        self.tell(messages.0);
+        match went {
+            Ok(()) => {}
+            Err(reason) => self.end(reason, true),
+        }
+    }
+
+    fn set_region(&mut self, region: Option<[[u32; 2]; 2]>, work: &Work) {
+        let was_at_work = self.run.take().is_some();
+        self.film = None;
+        let Some(open) = &mut self.open else { return };
+        let Some(scene) = Arc::get_mut(&mut open.scene) else {
+            return self.say(Weight::Warning, words::REGION_LATER.to_owned());
+        };
+        if let Err(error) = scene.set_region(region) {
+            return self.say(Weight::Error, error.to_string());
+        }
+        let facts = LoadedFacts::of(scene);
+        if let Some(picture) = &mut self.picture {
+            picture.region = facts.picture.region;
+        }
+        self.outlet.send(Update::Scene(Box::new(facts)));
+        self.outlet.send(Update::Phase(Phase::Ready));
+        if was_at_work {
+            self.start(work);
+        }
+    }
+
+    /// Writes all files of the render, on a thread of its own.
+    fn save_all(&self) {
+        let Some(run) = &self.run else { return };
+        let (job, film) = (run.job().clone(), run.film());
+        self.spawn_save(move |messages| {
+            say_saved(&job.save(&film), messages);
+        });
+    }
+
+    /// Writes one file of what is there now, on a thread of its own.
+    fn save(&mut self, what: OneFile, path: PathBuf) {
+        let film = self.run.as_ref().map(Run::film).map(Arc::new).or_else(|| self.film.clone());
+        let (Some(film), Some(job)) = (film, self.job()) else {
+            return self.say(Weight::Error, words::NOTHING_TO_SAVE.to_owned());
+        };
+        self.spawn_save(move |messages| match job.save_as(&film, what, &path) {
+            Ok(path) => messages.say(&words::saved(&path)),
+            Err(error) => messages.error(&error.to_string()),
+        });
+    }
+
+    fn spawn_save(&self, save: impl FnOnce(&mut Gathered) + Send + 'static) {
+        let outlet = self.outlet.clone();
+        let thread = std::thread::Builder::new().name("save".to_owned());
+        let begun = thread.spawn(move || {
+            let mut messages = Gathered::default();
+            save(&mut messages);
+            for line in messages.0 {
+                outlet.send(Update::Line(line));
+            }
+        });
+        if let Err(error) = begun {
+            self.say(Weight::Error, error.to_string());
+        }
+    }
+
+    /// How to save, by the controls.
+    fn job(&self) -> Option<SaveJob> {
+        let mut development = match &self.open {
+            Some(open) => open.scene.development(),
+            // A film that is only looked at has no scene to say more.
+            None => return None,
+        };
+        development.picture = self.picture.clone()?;
+        Some(SaveJob {
+            development,
+            paths: OutputPaths::new(""),
+            version: indigo_front::program(),
+            threads: indigo_front::logical_cores(),
+            first_hits: None,
+            denoiser: None,
+        })
+    }
+
+    fn quit(&mut self, saves: bool) {
+        self.stop(saves);
+        self.outlet.send(Update::Gone);
+    }
+}
+
+/// How a film of no scene is shown at first.
+fn plain_picture() -> PictureSettings {
+    let tone_mapping = ToneMapping::Reinhard { pre_scale: 4.0, post_scale: 1.2, burn: 6.0 };
+    // Reinhard's operator does not look at it; the other two get a middling camera: f/8, 1/125 s.
+    let exposure = Exposure { aperture_area: 1.5e-5, lens_sensor_dist: 0.035, duration: 0.008 };
+    PictureSettings::plain(tone_mapping, exposure)
+}

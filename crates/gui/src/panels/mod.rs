@@ -1,0 +1,79 @@
+//! The parts of the window, a file each.
+
+mod foot;
+mod keys;
+mod picture;
+mod queue;
+mod scene;
+mod status;
+mod tone;
+mod toolbar;
+mod tree;
+mod work;
+
+pub use keys::{ask_to_close, keys};
+pub use picture::{Textures, picture};
+pub use status::status;
+pub use toolbar::toolbar;
+
+use crate::state::{State, Tab};
+use crate::{theme, words};
+use eframe::egui::{Align, Layout, Response, ScrollArea, Ui, vec2};
+
+/// The panel on the right.
+pub fn side(ui: &mut Ui, state: &mut State) {
+    ui.add_space(6.0);
+    ui.horizontal(|ui| {
+        for tab in Tab::ALL {
+            ui.selectable_value(&mut state.tab, tab, words::tab(tab));
+        }
+    });
+    ui.separator();
+    ScrollArea::vertical().id_salt("side").auto_shrink(false).show(ui, |ui| match state.tab {
+        Tab::Picture => tone::tone(ui, state),
+        Tab::Render => work::work(ui, state),
+        Tab::Scene => {
+            scene::scene(ui, state);
+            if state.facts.is_some() {
+                tree::tree(ui, state);
+            }
+        }
+        Tab::Queue => queue::queue(ui, state),
+    });
+}
+
+/// The panel at the bottom.
+pub fn foot(ui: &mut Ui, state: &mut State) {
+    foot::foot(ui, state);
+}
+
+/// A control with its name in front.
+fn row(ui: &mut Ui, name: &str, add: impl FnOnce(&mut Ui) -> Response) -> Response {
+    ui.horizontal(|ui| {
+        let height = ui.spacing().interact_size.y;
+        let label = ui.allocate_ui_with_layout(
+            vec2(theme::NAME, height),
+            Layout::left_to_right(Align::Center),
+            |ui| {
+                ui.set_min_width(theme::NAME);
+                ui.label(name).id
+            },
+        );
+        let control = add(ui);
+        // What has words of its own keeps them.
+        if name.is_empty() { control } else { control.labelled_by(label.inner) }
+    })
+    .inner
+}
+
+/// The head of a group of controls.
+fn head(ui: &mut Ui, text: &str) {
+    ui.add_space(6.0);
+    ui.strong(text);
+}
+
+/// A fact with its name in front.
+fn fact(ui: &mut Ui, name: &str, value: impl Into<String>) {
+    let value = value.into();
+    row(ui, name, |ui| ui.monospace(value));
+}

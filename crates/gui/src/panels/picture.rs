@@ -1,0 +1,197 @@
+//! The picture, what the pointer does in it, and the pixel under it.
+
+use crate::comparison::Layout;
+use crate::engine::Command;
+use crate::state::{State, Tool};
+use crate::{theme, words};
+use eframe::egui::{
+    Color32, CursorIcon, Painter, PointerButton, Rect, Response, Role, Sense, Stroke, StrokeKind,
+    TextureHandle, Ui, Vec2, WidgetInfo, pos2, vec2,
+};
+
+/// How much a step of the wheel zooms.
+const ZOOM_PER_POINT: f32 = 0.004;
+
+/// The pictures as the graphics card has them.
+#[derive(Default)]
+pub struct Textures {
+    /// The render.
+    pub render: Option<TextureHandle>,
+    /// What it is compared with.
+    pub other: Option<TextureHandle>,
+}
+
+/// See the module.
+pub fn picture(ui: &mut Ui, state: &mut State, textures: &Textures) {
+    let whole = ui.available_rect_before_wrap();
+    let (area, line) = whole.split_top_bottom_at_y(whole.bottom() - theme::LINE);
+    ui.painter().rect_filled(area, 0.0, theme::surround(ui.visuals().dark_mode));
+    let response = ui.allocate_rect(area, Sense::click_and_drag());
+    let name = state.path.clone().unwrap_or_else(|| words::NOTHING_OPEN.to_owned());
+    response.widget_info(|| WidgetInfo::labeled(Role::Image, true, words::picture_of(&name)));
+    match &textures.render {
+        Some(render) => {
+            let size = render.size_vec2();
+            let panes = Panes::of(area, state);
+            interact(ui, state, &response, panes.render, size);
+            draw(ui, state, &panes, size, render, textures.other.as_ref());
+        }
+        None => welcome(ui, area, state),
+    }
+    let mut line = ui.new_child(eframe::egui::UiBuilder::new().max_rect(line.shrink2(vec2(8.0, 0.0))));
+    inspector(&mut line, state);
+}
+
+/// Where both pictures are.
+struct Panes {
+    /// The render, and what of it is seen.
+    render: Rect,
+    render_clip: Rect,
+    /// The other picture, and what of it is seen.
+    other: Option<(Rect, Rect)>,
+}
+
+impl Panes {
+    fn of(area: Rect, state: &State) -> Self {
+        let comparison = &state.comparison;
+        match comparison.layout {
+            _ if comparison.picture.is_none() => Self { render: area, render_clip: area, other: None },
+            Layout::Off => Self { render: area, render_clip: area, other: None },
+            Layout::Side => {
+                let (left, right) = area.split_left_right_at_fraction(0.5);
+                Self { render: left, render_clip: left, other: Some((right, right)) }
+            }
+            Layout::Wipe => {
+                let (left, right) = area.split_left_right_at_fraction(comparison.wipe);
+                Self { render: area, render_clip: left, other: Some((area, right)) }
+            }
+        }
+    }
+}
+
+fn interact(ui: &Ui, state: &mut State, response: &Response, area: Rect, size: Vec2) {
+    if state.wants_one_to_one {
+        state.wants_one_to_one = false;
+        state.view.set_zoom(1.0 / ui.ctx().pixels_per_point(), area, size);
+    }
+    let pointer = response.hover_pos();
+    state.hovered = pointer.and_then(|at| state.view.pixel(at, area, size));
+    if let Some(at) = pointer {
+        let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
+        let factor = (scroll * ZOOM_PER_POINT).exp() * pinch;
+        if factor != 1.0 {
+            state.view.zoom_at(factor, at, area, size);
+        }
+    }
+    let wipes = state.comparison.layout == Layout::Wipe && state.comparison.picture.is_some();
+    let pans = response.dragged_by(PointerButton::Middle)
+        || response.dragged_by(PointerButton::Primary) && state.tool != Tool::Region;
+    if wipes && response.dragged_by(PointerButton::Secondary) {
+        let at = response.interact_pointer_pos().map_or(0.5, |at| (at.x - area.left()) / area.width());
+        state.comparison.wipe = at.clamp(0.0, 1.0);
+    } else if pans {
+        state.view.pan(response.drag_delta(), area, size);
+    }
+    match state.tool {
+        Tool::Pan => {}
+        Tool::Grey if response.clicked() => {
+            if let Some(pixel) = state.hovered {
+                state.take_grey(pixel);
+            }
+        }
+        Tool::Region => draw_region(state, response, area, size),
+        Tool::Grey => {}
+    }
+    if response.hovered() {
+        ui.ctx().set_cursor_icon(match state.tool {
+            Tool::Pan if response.dragged() => CursorIcon::Grabbing,
+            Tool::Pan => CursorIcon::Default,
+            Tool::Grey | Tool::Region => CursorIcon::Crosshair,
+        });
+    }
+}
+
+fn draw_region(state: &mut State, response: &Response, area: Rect, size: Vec2) {
+    if response.drag_started_by(PointerButton::Primary) {
+        state.drag_from = response.interact_pointer_pos();
+    }
+    if !response.drag_stopped() {
+        return;
+    }
+    let (Some(from), Some(to)) = (state.drag_from.take(), response.interact_pointer_pos()) else { return };
+    if let (Some(region), Some(work)) = (state.view.region([from, to], area, size), state.work)
+        && state.facts.is_some()
+    {
+        state.tool = Tool::Pan;
+        state.command(Command::SetRegion(Some(region), work));
+    }
+}
+
+fn draw(
+    ui: &Ui,
+    state: &State,
+    panes: &Panes,
+    size: Vec2,
+    render: &TextureHandle,
+    other: Option<&TextureHandle>,
+) {
+    let clipped = |clip: Rect| ui.painter().with_clip_rect(clip);
+    let place = state.view.place(panes.render, size);
+    image(&clipped(panes.render_clip), render, place);
+    if let (Some((area, clip)), Some(other)) = (panes.other, other) {
+        // In the same place, whatever its size, so that the same things are seen.
+        image(&clipped(clip), other, state.view.place(area, size));
+        let x = clip.left();
+        clipped(panes.render_clip.union(clip)).vline(x, clip.y_range(), Stroke::new(2.0, Color32::WHITE));
+    }
+    let frame = |rect: Rect, stroke: Stroke| {
+        clipped(panes.render).rect_stroke(rect, 0.0, stroke, StrokeKind::Outside);
+    };
+    let accent = ui.visuals().selection.bg_fill;
+    if let Some(region) = state.facts.as_ref().and_then(|facts| facts.region) {
+        frame(state.view.place_of(region, panes.render, size), Stroke::new(1.0, accent));
+    }
+    if let (Some(from), Some(to)) = (state.drag_from, ui.input(|input| input.pointer.latest_pos())) {
+        frame(Rect::from_two_pos(from, to), Stroke::new(1.5, Color32::WHITE));
+    }
+}
+
+fn image(painter: &Painter, texture: &TextureHandle, place: Rect) {
+    let all = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+    painter.image(texture.id(), place, all, Color32::WHITE);
+}
+
+fn welcome(ui: &Ui, area: Rect, state: &State) {
+    let text = words::in_empty_picture(&state.phase);
+    let colour = if ui.visuals().dark_mode { Color32::from_gray(170) } else { Color32::from_gray(30) };
+    let font = eframe::egui::FontId::proportional(16.0);
+    ui.painter().text(area.center(), eframe::egui::Align2::CENTER_CENTER, text, font, colour);
+}
+
+/// What is known of the pixel under the pointer.
+fn inspector(ui: &mut Ui, state: &State) {
+    let zoom = state.picture.is_some().then(|| words::view(state.view.is_fitting()));
+    ui.horizontal_centered(|ui| {
+        let mut cell = |width: f32, text: String| {
+            ui.allocate_ui(vec2(width, theme::LINE), |ui| {
+                ui.set_min_width(width);
+                ui.monospace(text);
+            });
+        };
+        let pixel = state.hovered.zip(state.picture.as_ref());
+        let Some(([x, y], picture)) = pixel else {
+            cell(400.0, zoom.unwrap_or_default());
+            return;
+        };
+        let index = y as usize * picture.size[0] + x as usize;
+        cell(96.0, format!("{x}, {y}"));
+        if let Some(shown) = picture.image.pixels.get(index) {
+            cell(140.0, format!("RGB {:>3} {:>3} {:>3}", shown.r(), shown.g(), shown.b()));
+        }
+        if let Some([x, y, z, _]) = picture.light.pixels.get(index) {
+            cell(230.0, format!("XYZ {x:>8.3} {y:>8.3} {z:>8.3}"));
+            cell(140.0, words::luminance(*y));
+            cell(150.0, words::exposure(f64::from(*y) * picture.lux_seconds_per_nit));
+        }
+    });
+}

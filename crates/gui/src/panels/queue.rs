@@ -1,0 +1,50 @@
+//! Scenes that are rendered one after another.
+
+use super::{head, row};
+use crate::queue::Turn;
+use crate::state::{Action, Ask, State};
+use crate::words;
+use eframe::egui::{Button, DragValue, Ui};
+
+/// See the module.
+pub fn queue(ui: &mut Ui, state: &mut State) {
+    head(ui, words::QUEUE);
+    ui.label(words::QUEUE_HINT);
+    let mut removed = None;
+    for (index, (path, turn)) in state.queue.scenes.iter().enumerate() {
+        let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+        ui.horizontal(|ui| {
+            let can_go = *turn != Turn::Now;
+            let button = Button::new(words::REMOVE).small();
+            if ui.add_enabled(can_go, button).on_hover_text(words::remove(&name)).clicked() {
+                removed = Some(index);
+            }
+            ui.weak(words::turn(*turn));
+            ui.label(&name).on_hover_text(path.display().to_string());
+        });
+    }
+    if let Some(index) = removed {
+        state.queue.scenes.remove(index);
+    }
+    if state.queue.scenes.is_empty() {
+        ui.weak(words::NONE);
+    }
+    ui.add_space(4.0);
+    row(ui, words::QUEUE_HALT, |ui| {
+        ui.add(DragValue::new(&mut state.queue.halts_at).range(1..=u64::from(u32::MAX)))
+    })
+    .on_hover_text(words::QUEUE_HALT_HINT);
+    ui.horizontal(|ui| {
+        if ui.button(words::ADD).clicked() {
+            state.act(Action::Ask(Ask::Queue));
+        }
+        let waits = state.queue.scenes.iter().any(|scene| scene.1 == Turn::Waiting);
+        if state.queue.runs {
+            if ui.button(words::QUEUE_END).on_hover_text(words::QUEUE_END_HINT).clicked() {
+                state.queue.runs = false;
+            }
+        } else if ui.add_enabled(waits && !state.is_under_way(), Button::new(words::QUEUE_START)).clicked() {
+            state.act(Action::RunQueue);
+        }
+    });
+}

@@ -1,0 +1,36 @@
+//! The line at the bottom: what the engine is at, and how far.
+
+use crate::engine::Phase;
+use crate::state::State;
+use crate::words;
+use eframe::egui::{ProgressBar, Spinner, Ui, vec2};
+use indigo_front::messages::{clock, scaled};
+
+/// See the module. Each part has its place, so that nothing moves when numbers grow.
+pub fn status(ui: &mut Ui, state: &State) {
+    ui.horizontal_centered(|ui| {
+        let cell = |ui: &mut Ui, width: f32, text: String| {
+            ui.allocate_ui(vec2(width, ui.available_height()), |ui| {
+                ui.set_min_width(width);
+                ui.label(text);
+            });
+        };
+        ui.allocate_ui(vec2(18.0, 18.0), |ui| {
+            ui.set_min_width(18.0);
+            if matches!(state.phase, Phase::Loading | Phase::Ending) {
+                ui.add(Spinner::new().size(16.0));
+            }
+        });
+        cell(ui, 120.0, words::phase(&state.phase));
+        let progress = state.progress.as_ref();
+        let fraction = progress.and_then(|p| p.fraction);
+        let text = fraction.map(|f| format!("{:.0} %", 100.0 * f)).unwrap_or_default();
+        ui.add(ProgressBar::new(fraction.unwrap_or(0.0) as f32).desired_width(140.0).text(text));
+        let Some(p) = progress else { return };
+        cell(ui, 110.0, words::samples_per_pixel(p.samples_per_pixel));
+        cell(ui, 120.0, words::samples_per_second(&scaled(p.samples_per_second)));
+        cell(ui, 110.0, words::elapsed(&clock(p.elapsed)));
+        cell(ui, 100.0, p.left.map(|left| words::left(&clock(left))).unwrap_or_default());
+        cell(ui, 110.0, p.relative_error.map(words::error).unwrap_or_default());
+    });
+}

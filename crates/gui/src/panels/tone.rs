@@ -1,0 +1,241 @@
+//! How the picture is developed.
+
+use super::{head, row};
+use crate::controls::{Controls, Mapper, read_response};
+use crate::engine::Histogram;
+use crate::log::{Line, Weight};
+use crate::state::{Action, State, Tool};
+use crate::words;
+use eframe::egui::{
+    Button, Checkbox, Color32, ComboBox, Mesh, Pos2, Rect, Response, Sense, Shape, Slider, Stroke, Ui, pos2,
+    vec2,
+};
+use indigo_imaging::Response as Curves;
+
+/// See the module.
+pub fn tone(ui: &mut Ui, state: &mut State) {
+    histogram(ui, state.picture.as_ref().map(|picture| &picture.histogram));
+    let Some(mut controls) = state.controls.clone() else {
+        ui.add_space(8.0);
+        ui.label(words::NOTHING_OPEN);
+        return;
+    };
+    mapping(ui, state, &mut controls);
+    white(ui, state, &mut controls);
+    optics(ui, state, &mut controls);
+    if state.controls.as_ref() != Some(&controls) {
+        state.controls = Some(controls);
+        state.controls_changed();
+    }
+    ui.add_space(10.0);
+    ui.horizontal(|ui| {
+        if ui.button(words::RESET).on_hover_text(words::RESET_HINT).clicked() {
+            state.reset_controls();
+        }
+        let write = Button::new(words::WRITE_SETTINGS);
+        if ui.add_enabled(state.facts.is_some(), write).on_hover_text(words::WRITE_SETTINGS_HINT).clicked() {
+            state.act(Action::WriteSettings);
+        }
+    });
+}
+
+fn mapping(ui: &mut Ui, state: &mut State, controls: &mut Controls) {
+    head(ui, words::TONE_MAPPING);
+    row(ui, words::MAPPER, |ui| {
+        ComboBox::from_id_salt("mapper")
+            .width(160.0)
+            .selected_text(words::mapper(controls.mapper))
+            .show_ui(ui, |ui| {
+                for mapper in Mapper::ALL {
+                    ui.selectable_value(&mut controls.mapper, mapper, words::mapper(mapper));
+                }
+            })
+            .response
+    });
+    match controls.mapper {
+        Mapper::Linear => {
+            scale(ui, words::SCALE, &mut controls.scale, 1e-4..=1e4);
+        }
+        Mapper::Reinhard => {
+            scale(ui, words::PRE_SCALE, &mut controls.pre_scale, 1e-3..=1e3);
+            scale(ui, words::POST_SCALE, &mut controls.post_scale, 1e-2..=1e2);
+            scale(ui, words::BURN, &mut controls.burn, 1e-2..=1e3);
+        }
+        Mapper::Camera => {
+            row(ui, words::EV, |ui| {
+                ui.add(Slider::new(&mut controls.ev, -12.0..=12.0).step_by(0.1).fixed_decimals(1))
+            })
+            .on_hover_text(words::EV_HINT);
+            scale(ui, words::ISO, &mut controls.iso, 10.0..=102_400.0);
+            response(ui, state, controls);
+            curve(ui, &controls.response);
+        }
+    }
+}
+
+/// A slider over powers of ten.
+fn scale(ui: &mut Ui, name: &str, value: &mut f64, range: std::ops::RangeInclusive<f64>) -> Response {
+    row(ui, name, |ui| ui.add(Slider::new(value, range).logarithmic(true).max_decimals(4)))
+}
+
+fn response(ui: &mut Ui, state: &mut State, controls: &mut Controls) {
+    row(ui, words::RESPONSE, |ui| {
+        ComboBox::from_id_salt("response")
+            .width(160.0)
+            .selected_text(words::response(controls.response.name()))
+            .show_ui(ui, |ui| {
+                let display = std::sync::Arc::new(Curves::display());
+                if ui.selectable_label(controls.response.name().is_empty(), words::response("")).clicked() {
+                    controls.response = display;
+                }
+                for (name, path) in &state.responses {
+                    if ui.selectable_label(controls.response.name() == name, words::response(name)).clicked()
+                    {
+                        match read_response(name, path) {
+                            Ok(response) => controls.response = response,
+                            Err(text) => state.log.add(Line { weight: Weight::Error, text }),
+                        }
+                    }
+                }
+            })
+            .response
+    });
+}
+
+/// The response, from irradiance to brightness, for red, green and blue.
+fn curve(ui: &mut Ui, response: &Curves) {
+    const POINTS: u16 = 128;
+    let (rect, area) = ui.allocate_exact_size(vec2(ui.available_width(), 96.0), Sense::hover());
+    area.on_hover_text(words::CURVE_HINT);
+    ui.painter().rect_filled(rect, 4.0, ui.visuals().extreme_bg_color);
+    let inner = rect.shrink(6.0);
+    for (channel, colour) in channel_colours(ui).into_iter().enumerate() {
+        let points = (0..=POINTS).map(|i| {
+            let x = f32::from(i) / f32::from(POINTS);
+            let y = response.brightness(channel, x).clamp(0.0, 1.0);
+            pos2(inner.left() + x * inner.width(), inner.bottom() - y * inner.height())
+        });
+        ui.painter().add(Shape::line(points.collect(), Stroke::new(1.5, colour)));
+    }
+}
+
+/// Red, green and blue that can be told from the ground in both themes.
+fn channel_colours(ui: &Ui) -> [Color32; 3] {
+    if ui.visuals().dark_mode {
+        [Color32::from_rgb(235, 90, 90), Color32::from_rgb(90, 200, 90), Color32::from_rgb(110, 150, 255)]
+    } else {
+        [Color32::from_rgb(190, 30, 30), Color32::from_rgb(20, 130, 20), Color32::from_rgb(40, 70, 210)]
+    }
+}
+
+fn white(ui: &mut Ui, state: &mut State, controls: &mut Controls) {
+    head(ui, words::WHITE_BALANCE);
+    row(ui, words::WHITE, |ui| {
+        ComboBox::from_id_salt("white")
+            .width(160.0)
+            .selected_text(controls.white_name())
+            .show_ui(ui, |ui| {
+                for illuminant in indigo_spectrum::illuminant::ALL {
+                    ui.selectable_value(&mut controls.white, illuminant.white_xy, illuminant.name);
+                }
+            })
+            .response
+    });
+    row(ui, "", |ui| {
+        let picks = state.tool == Tool::Grey;
+        let button = ui.add(Button::selectable(picks, words::PICK_GREY)).on_hover_text(words::GREY_HINT);
+        if button.clicked() {
+            state.tool = if picks { Tool::Pan } else { Tool::Grey };
+        }
+        button
+    });
+}
+
+fn optics(ui: &mut Ui, state: &State, controls: &mut Controls) {
+    head(ui, words::OPTICS);
+    let can_diffract = state.base.as_ref().is_some_and(|base| base.diffraction.is_some());
+    let diffraction = Checkbox::new(&mut controls.diffraction, words::DIFFRACTION);
+    ui.add_enabled(can_diffract, diffraction).on_disabled_hover_text(words::NO_DIFFRACTION);
+    ui.checkbox(&mut controls.bloom, words::BLOOM);
+    ui.add_enabled_ui(controls.bloom, |ui| {
+        row(ui, words::BLOOM_WEIGHT, |ui| ui.add(Slider::new(&mut controls.bloom_weight, 0.0..=1.0)));
+        row(ui, words::BLOOM_RADIUS, |ui| {
+            ui.add(Slider::new(&mut controls.bloom_radius, 0.0005..=0.2).logarithmic(true))
+        });
+    });
+}
+
+/// How often each brightness is there.
+fn histogram(ui: &mut Ui, histogram: Option<&Histogram>) {
+    let (rect, area) = ui.allocate_exact_size(vec2(ui.available_width(), 84.0), Sense::hover());
+    area.on_hover_text(words::HISTOGRAM_HINT);
+    let painter = ui.painter().with_clip_rect(rect);
+    painter.rect_filled(rect, 4.0, ui.visuals().extreme_bg_color);
+    let Some(Histogram(channels)) = histogram else { return };
+    let inner = rect.shrink(6.0);
+    for (values, colour) in channels.iter().zip(channel_colours(ui)) {
+        let at = |i: usize, value: f32| {
+            let x = inner.left() + inner.width() * i as f32 / (values.len() - 1) as f32;
+            // Roots, so that what is rare is seen, too.
+            pos2(x, inner.bottom() - inner.height() * value.sqrt())
+        };
+        let line: Vec<Pos2> = values.iter().enumerate().map(|(i, &value)| at(i, value)).collect();
+        painter.add(Shape::mesh(filled(&line, inner, colour.gamma_multiply(0.25))));
+        painter.add(Shape::line(line, Stroke::new(1.0, colour)));
+    }
+}
+
+/// What is below a line.
+fn filled(line: &[Pos2], inner: Rect, colour: Color32) -> Mesh {
+    let mut mesh = Mesh::default();
+    for (i, point) in line.iter().enumerate() {
+        mesh.colored_vertex(*point, colour);
+        mesh.colored_vertex(pos2(point.x, inner.bottom()), colour);
+        if i > 0 {
+            let at = 2 * i as u32;
+            mesh.add_triangle(at - 2, at - 1, at);
+            mesh.add_triangle(at - 1, at, at + 1);
+        }
+    }
+    mesh
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::recent::Recent;
+    use crate::theme;
+    use egui_kittest::Harness;
+    use egui_kittest::kittest::Queryable as _;
+    use indigo_front::flags::Arguments;
+    use indigo_imaging::{Exposure, PictureSettings, ToneMapping};
+
+    fn harness() -> Harness<'static, State> {
+        let mut state = State::new(Arguments::default(), Recent::default());
+        let response = std::sync::Arc::new(Curves::display());
+        let tone_mapping = ToneMapping::Camera { response, ev_adjust: 0.0, film_iso: 100.0 };
+        let exposure = Exposure { aperture_area: 1.0, lens_sensor_dist: 1.0, duration: 1.0 };
+        let settings = PictureSettings::plain(tone_mapping, exposure);
+        state.controls = Some(Controls::of(&settings));
+        state.base = Some(settings);
+        Harness::builder()
+            .with_size(vec2(theme::SIDE, 900.0))
+            .build_ui_state(|ui, state| tone(ui, state), state)
+    }
+
+    #[test]
+    fn controls_are_found_by_their_names_and_act() {
+        let mut harness = harness();
+        harness.run();
+        for name in [words::MAPPER, words::EV, words::ISO, words::RESPONSE, words::WHITE] {
+            assert!(harness.query_all_by_label(name).count() > 0, "{name} has no name for a screen reader");
+        }
+        harness.get_by_label(words::BLOOM).click();
+        harness.run();
+        assert!(harness.state().controls.as_ref().is_some_and(|controls| controls.bloom));
+        assert!(!harness.state().actions.is_empty(), "the picture is developed anew");
+        harness.get_by_label(words::RESET).click();
+        harness.run();
+        assert!(harness.state().controls.as_ref().is_some_and(|controls| !controls.bloom));
+    }
+}

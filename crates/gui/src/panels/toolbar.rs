@@ -1,0 +1,144 @@
+//! The tool bar: files, the render, the view.
+
+use crate::comparison::Layout;
+use crate::engine::{Command, Phase};
+use crate::state::{Action, Ask, State, Tool};
+use crate::words;
+use eframe::egui::{Button, Ui};
+use indigo_render::output::OneFile;
+
+/// See the module.
+pub fn toolbar(ui: &mut Ui, state: &mut State) {
+    ui.horizontal_centered(|ui| {
+        open(ui, state);
+        save(ui, state);
+        ui.separator();
+        render(ui, state);
+        ui.separator();
+        view(ui, state);
+        ui.separator();
+        tools(ui, state);
+        ui.separator();
+        compare(ui, state);
+        ui.separator();
+        if ui.button(words::THEME_SHORT).on_hover_text(words::THEME).clicked() {
+            state.wants_other_theme = true;
+        }
+        if ui.button(words::KEYS).on_hover_text(words::KEYS_HINT).clicked() {
+            state.shows_keys = !state.shows_keys;
+        }
+    });
+}
+
+fn open(ui: &mut Ui, state: &mut State) {
+    ui.menu_button(words::OPEN, |ui| {
+        if ui.button(words::OPEN_FILE).clicked() {
+            state.act(Action::Ask(Ask::Open));
+            ui.close();
+        }
+        if ui.add_enabled(state.path.is_some(), Button::new(words::RELOAD)).clicked() {
+            state.act(Action::Restart);
+            ui.close();
+        }
+        ui.separator();
+        ui.weak(words::RECENT);
+        for path in state.recent.paths().to_vec() {
+            let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+            if ui.button(name).on_hover_text(path.display().to_string()).clicked() {
+                state.act(Action::Open(path));
+                ui.close();
+            }
+        }
+        if state.recent.paths().is_empty() {
+            ui.weak(words::NONE);
+        }
+    });
+}
+
+fn save(ui: &mut Ui, state: &mut State) {
+    let can_save = state.facts.is_some() && state.picture.is_some();
+    ui.add_enabled_ui(can_save, |ui| {
+        ui.menu_button(words::SAVE, |ui| {
+            if ui.add_enabled(state.is_under_way(), Button::new(words::SAVE_NOW)).clicked() {
+                state.command(Command::SaveAll);
+                ui.close();
+            }
+            ui.separator();
+            for (what, words) in [
+                (OneFile::Picture, words::SAVE_PICTURE),
+                (OneFile::Luminances, words::SAVE_EXR),
+                (OneFile::Film, words::SAVE_FILM),
+            ] {
+                if ui.button(words).clicked() {
+                    state.act(Action::Ask(Ask::Save(what)));
+                    ui.close();
+                }
+            }
+        });
+    });
+}
+
+fn render(ui: &mut Ui, state: &mut State) {
+    // As wide as the longest of its words, so that nothing moves when it changes.
+    let size = eframe::egui::vec2(84.0, ui.spacing().interact_size.y + 2.0);
+    if state.phase == Phase::Loading {
+        if ui.add_sized(size, Button::new(words::CANCEL)).clicked() {
+            state.command(Command::Cancel);
+        }
+    } else {
+        let is_possible = state.can_start() || matches!(state.phase, Phase::Rendering | Phase::Paused);
+        let text = match state.phase {
+            Phase::Rendering => words::PAUSE,
+            Phase::Paused => words::RESUME,
+            Phase::Halted(_) => words::GO_ON,
+            _ => words::START,
+        };
+        let clicked =
+            ui.add_enabled_ui(is_possible, |ui| ui.add_sized(size, Button::new(text)).clicked()).inner;
+        if clicked {
+            state.start_or_pause();
+        }
+    }
+    let can_stop = matches!(state.phase, Phase::Rendering | Phase::Paused);
+    if ui.add_enabled(can_stop, Button::new(words::STOP)).on_hover_text(words::STOP_HINT).clicked() {
+        state.command(Command::Stop);
+    }
+}
+
+fn view(ui: &mut Ui, state: &mut State) {
+    let fits = state.view.is_fitting();
+    if ui.selectable_label(fits, words::FIT).on_hover_text(words::FIT_HINT).clicked() {
+        state.view.fit();
+    }
+    if ui.selectable_label(false, words::ONE_TO_ONE).on_hover_text(words::ONE_TO_ONE_HINT).clicked() {
+        state.wants_one_to_one = true;
+    }
+}
+
+fn tools(ui: &mut Ui, state: &mut State) {
+    for (tool, name, hint) in [
+        (Tool::Pan, words::PAN, words::PAN_HINT),
+        (Tool::Grey, words::GREY, words::GREY_HINT),
+        (Tool::Region, words::REGION, words::REGION_HINT),
+    ] {
+        ui.selectable_value(&mut state.tool, tool, name).on_hover_text(hint);
+    }
+}
+
+fn compare(ui: &mut Ui, state: &mut State) {
+    ui.menu_button(words::COMPARE, |ui| {
+        if ui.button(words::COMPARE_WITH).clicked() {
+            state.act(Action::Ask(Ask::Compare));
+            ui.close();
+        }
+        ui.separator();
+        let has_picture = state.comparison.picture.is_some();
+        for layout in Layout::ALL {
+            let choice = Button::selectable(state.comparison.layout == layout, words::layout(layout));
+            if ui.add_enabled(has_picture || layout == Layout::Off, choice).clicked() {
+                state.comparison.layout = layout;
+                ui.close();
+            }
+        }
+    });
+}

@@ -1,0 +1,117 @@
+//! How the scene is rendered.
+
+use super::{head, row};
+use crate::engine::Command;
+use crate::state::{Action, State, Tool};
+use crate::words;
+use crate::work::{Mode, Sampling, Work};
+use eframe::egui::{Button, ComboBox, DragValue, Response, Ui};
+use indigo_scene::schema::settings::MOST_THREADS;
+
+/// See the module.
+pub fn work(ui: &mut Ui, state: &mut State) {
+    let (Some(mut work), Some(mut mode)) = (state.work, state.mode) else {
+        ui.add_space(8.0);
+        ui.label(words::NOTHING_TO_RENDER);
+        return;
+    };
+    head(ui, words::HALT);
+    halts(ui, &mut work);
+    head(ui, words::MACHINE);
+    row(ui, words::THREADS, |ui| ui.add(DragValue::new(&mut work.threads).range(1..=MOST_THREADS)));
+    let is_changed = state.work != Some(work);
+    state.work = Some(work);
+    // While a number is dragged or typed the render goes on as it is.
+    let is_settled = !ui.ctx().egui_is_using_pointer() && !ui.ctx().text_edit_focused();
+    state.work_is_new |= is_changed;
+    if state.work_is_new && is_settled {
+        state.work_is_new = false;
+        if state.is_under_way() {
+            state.command(Command::Adjust(work));
+        }
+    }
+    head(ui, words::LIGHT_TRANSPORT);
+    transport(ui, &mut mode);
+    state.mode = Some(mode);
+    let is_other = state.facts.as_ref().is_some_and(|facts| Mode::of(&facts.transport) != mode);
+    row(ui, "", |ui| {
+        let button = ui.add_enabled(is_other, Button::new(words::APPLY_MODE));
+        if button.clicked() {
+            state.act(Action::Restart);
+        }
+        button.on_hover_text(words::APPLY_MODE_HINT)
+    });
+    head(ui, words::REGION);
+    region(ui, state, work);
+}
+
+fn halts(ui: &mut Ui, work: &mut Work) {
+    condition(ui, &mut work.halt_spp.0, words::HALT_SPP, |ui| {
+        ui.add(DragValue::new(&mut work.halt_spp.1).range(1..=u64::from(u32::MAX)))
+    });
+    condition(ui, &mut work.halt_time.0, words::HALT_TIME, |ui| {
+        ui.add(DragValue::new(&mut work.halt_time.1).range(1.0..=1e7).suffix(" s"))
+    });
+    condition(ui, &mut work.halt_error.0, words::HALT_ERROR, |ui| {
+        ui.add(DragValue::new(&mut work.halt_error.1).range(0.01..=100.0).speed(0.05).suffix(" %"))
+    })
+    .on_hover_text(words::HALT_ERROR_HINT);
+}
+
+/// A halting condition that can be switched on.
+fn condition(ui: &mut Ui, is_on: &mut bool, name: &str, value: impl FnOnce(&mut Ui) -> Response) -> Response {
+    ui.horizontal(|ui| {
+        let switch = ui.add_sized([160.0, 22.0], left_checkbox(is_on, name));
+        let value = ui.add_enabled_ui(*is_on, value).inner.labelled_by(switch.id);
+        switch | value
+    })
+    .inner
+}
+
+/// A checkbox whose text begins at its left, however wide it is.
+fn left_checkbox<'a>(is_on: &'a mut bool, name: &'a str) -> impl eframe::egui::Widget + 'a {
+    move |ui: &mut Ui| {
+        ui.with_layout(eframe::egui::Layout::left_to_right(eframe::egui::Align::Center), |ui| {
+            ui.checkbox(is_on, name)
+        })
+        .inner
+    }
+}
+
+fn transport(ui: &mut Ui, mode: &mut Mode) {
+    row(ui, words::TECHNIQUE, |ui| {
+        ComboBox::from_id_salt("technique")
+            .width(170.0)
+            .selected_text(words::technique(mode.bidirectional))
+            .show_ui(ui, |ui| {
+                for bidirectional in [false, true] {
+                    let name = words::technique(bidirectional);
+                    ui.selectable_value(&mut mode.bidirectional, bidirectional, name);
+                }
+            })
+            .response
+    });
+    row(ui, words::SAMPLING, |ui| {
+        ComboBox::from_id_salt("sampling")
+            .width(170.0)
+            .selected_text(words::sampling(mode.sampling))
+            .show_ui(ui, |ui| {
+                for sampling in Sampling::ALL {
+                    ui.selectable_value(&mut mode.sampling, sampling, words::sampling(sampling));
+                }
+            })
+            .response
+    });
+}
+
+fn region(ui: &mut Ui, state: &mut State, work: Work) {
+    let region = state.facts.as_ref().and_then(|facts| facts.region);
+    ui.label(words::region(region));
+    ui.horizontal(|ui| {
+        ui.selectable_value(&mut state.tool, Tool::Region, words::DRAW_REGION)
+            .on_hover_text(words::REGION_HINT);
+        if ui.add_enabled(region.is_some(), Button::new(words::WHOLE_PICTURE)).clicked() {
+            state.command(Command::SetRegion(None, work));
+        }
+    });
+}

@@ -1,0 +1,66 @@
+//! Looks: spacing, and colours of both themes that carry a meaning.
+
+use crate::log::Weight;
+use eframe::egui::{Color32, Context, CornerRadius, Theme, Visuals, vec2};
+
+/// Height of the tool bar.
+pub const TOOL_BAR: f32 = 40.0;
+/// Width of the panel on the right.
+pub const SIDE: f32 = 324.0;
+/// Height of the panel with log and findings.
+pub const FOOT: f32 = 152.0;
+/// Height of the line with the state, and of that with the pixel under the pointer.
+pub const LINE: f32 = 30.0;
+/// Width of the names of controls.
+pub const NAME: f32 = 112.0;
+
+/// Sets both themes.
+pub fn set(context: &Context) {
+    context.all_styles_mut(|style| {
+        style.spacing.item_spacing = vec2(8.0, 6.0);
+        style.spacing.button_padding = vec2(8.0, 4.0);
+        style.spacing.slider_width = 100.0;
+        style.spacing.interact_size.y = 22.0;
+        // Texts that are read are not taken for something to be dragged.
+        style.interaction.selectable_labels = false;
+    });
+    for theme in [Theme::Dark, Theme::Light] {
+        let mut visuals = match theme {
+            Theme::Dark => Visuals::dark(),
+            Theme::Light => Visuals::light(),
+        };
+        let radius = CornerRadius::same(4);
+        let widgets = &mut visuals.widgets;
+        for state in [
+            &mut widgets.noninteractive,
+            &mut widgets.inactive,
+            &mut widgets.hovered,
+            &mut widgets.active,
+            &mut widgets.open,
+        ] {
+            state.corner_radius = radius;
+        }
+        if theme == Theme::Dark {
+            // A little more contrast than the usual for what is read.
+            visuals.widgets.noninteractive.fg_stroke.color = Color32::from_gray(190);
+        } else {
+            visuals.widgets.noninteractive.fg_stroke.color = Color32::from_gray(50);
+        }
+        context.set_visuals_of(theme, visuals);
+    }
+}
+
+/// The colour behind the picture: a grey without hue, so that the eye judges the picture by itself.
+pub fn surround(is_dark: bool) -> Color32 {
+    Color32::from_gray(if is_dark { 38 } else { 150 })
+}
+
+/// The colour of a line of the log.
+pub fn of_weight(weight: Weight, visuals: &Visuals) -> Color32 {
+    match weight {
+        Weight::Error => visuals.error_fg_color,
+        Weight::Warning if visuals.dark_mode => Color32::from_rgb(240, 180, 70),
+        Weight::Warning => Color32::from_rgb(150, 85, 0),
+        Weight::Info => visuals.text_color(),
+    }
+}

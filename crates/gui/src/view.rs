@@ -1,0 +1,160 @@
+//! Where the picture is on the screen: zoom and position.
+
+use eframe::egui::{Pos2, Rect, Vec2, pos2, vec2};
+
+/// The least and most screen pixels for a pixel of the picture.
+const ZOOMS: std::ops::RangeInclusive<f32> = 1.0 / 32.0..=64.0;
+
+/// What part of the picture is shown, and how large.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct View {
+    /// Points on the screen for a pixel of the picture; `None`: as large as fits.
+    zoom: Option<f32>,
+    /// The point of the picture that is in the middle.
+    centre: Pos2,
+}
+
+impl Default for View {
+    fn default() -> Self {
+        Self { zoom: None, centre: Pos2::ZERO }
+    }
+}
+
+impl View {
+    /// As large as fits from now on.
+    pub fn fit(&mut self) {
+        self.zoom = None;
+    }
+
+    /// So many points for a pixel from now on.
+    pub fn set_zoom(&mut self, zoom: f32, area: Rect, size: Vec2) {
+        self.zoom_at(zoom / self.zoom(area, size), area.center(), area, size);
+    }
+
+    /// Points on the screen for a pixel of the picture.
+    pub fn zoom(&self, area: Rect, size: Vec2) -> f32 {
+        let fitting = (area.width() / size.x.max(1.0)).min(area.height() / size.y.max(1.0));
+        self.zoom.unwrap_or(fitting.max(*ZOOMS.start()))
+    }
+
+    /// Whether the picture is as large as fits.
+    pub fn is_fitting(&self) -> bool {
+        self.zoom.is_none()
+    }
+
+    /// Where a picture of a size is in an area.
+    pub fn place(&self, area: Rect, size: Vec2) -> Rect {
+        let zoom = self.zoom(area, size);
+        let centre = if self.zoom.is_some() { self.centre } else { (size / 2.0).to_pos2() };
+        Rect::from_min_size(area.center() - centre.to_vec2() * zoom, size * zoom)
+    }
+
+    /// Zooms by a factor about a point of the screen, which keeps its pixel.
+    pub fn zoom_at(&mut self, factor: f32, at: Pos2, area: Rect, size: Vec2) {
+        let place = self.place(area, size);
+        let old = self.zoom(area, size);
+        let new = (old * factor).clamp(*ZOOMS.start(), *ZOOMS.end());
+        let pixel = (at - place.min) / old;
+        self.centre = (pixel + (area.center() - at) / new).to_pos2();
+        self.zoom = Some(new);
+        self.keep_in_sight(size);
+    }
+
+    /// Moves the picture by so many points.
+    pub fn pan(&mut self, by: Vec2, area: Rect, size: Vec2) {
+        let zoom = self.zoom(area, size);
+        if self.zoom.is_none() {
+            self.centre = (size / 2.0).to_pos2();
+            self.zoom = Some(zoom);
+        }
+        self.centre -= by / zoom;
+        self.keep_in_sight(size);
+    }
+
+    fn keep_in_sight(&mut self, size: Vec2) {
+        self.centre = pos2(self.centre.x.clamp(0.0, size.x), self.centre.y.clamp(0.0, size.y));
+    }
+
+    /// The pixel of the picture under a point of the screen.
+    pub fn pixel(&self, at: Pos2, area: Rect, size: Vec2) -> Option<[u32; 2]> {
+        let pixel = (at - self.place(area, size).min) / self.zoom(area, size);
+        let is_inside = pixel.x >= 0.0 && pixel.y >= 0.0 && pixel.x < size.x && pixel.y < size.y;
+        is_inside.then_some([pixel.x as u32, pixel.y as u32])
+    }
+
+    /// The rectangle of pixels between two points of the screen: first column and row, and those after the last; `None`
+    /// where it would be empty.
+    pub fn region(&self, ends: [Pos2; 2], area: Rect, size: Vec2) -> Option<[[u32; 2]; 2]> {
+        let (place, zoom) = (self.place(area, size), self.zoom(area, size));
+        let rect = Rect::from_two_pos(ends[0], ends[1]);
+        let start = ((rect.min - place.min) / zoom).round().clamp(Vec2::ZERO, size);
+        let end = ((rect.max - place.min) / zoom).round().clamp(Vec2::ZERO, size);
+        let whole = |v: Vec2| [v.x as u32, v.y as u32];
+        (end.x > start.x && end.y > start.y).then(|| [whole(start), whole(end)])
+    }
+
+    /// Where a rectangle of pixels is on the screen.
+    pub fn place_of(&self, [start, end]: [[u32; 2]; 2], area: Rect, size: Vec2) -> Rect {
+        let (place, zoom) = (self.place(area, size), self.zoom(area, size));
+        let at = |[x, y]: [u32; 2]| place.min + vec2(x as f32, y as f32) * zoom;
+        Rect::from_min_max(at(start), at(end))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SIZE: Vec2 = vec2(200.0, 100.0);
+
+    fn area() -> Rect {
+        Rect::from_min_size(pos2(10.0, 20.0), vec2(400.0, 400.0))
+    }
+
+    #[test]
+    fn it_fits_in_the_middle() {
+        let view = View::default();
+        assert_eq!(view.zoom(area(), SIZE), 2.0);
+        assert_eq!(view.place(area(), SIZE), Rect::from_min_size(pos2(10.0, 120.0), vec2(400.0, 200.0)));
+        assert_eq!(view.pixel(pos2(11.0, 121.0), area(), SIZE), Some([0, 0]));
+        assert_eq!(view.pixel(pos2(11.0, 119.0), area(), SIZE), None);
+    }
+
+    #[test]
+    fn zooming_keeps_the_pixel_under_the_pointer() {
+        let mut view = View::default();
+        let at = pos2(150.0, 200.0);
+        let before = view.pixel(at, area(), SIZE);
+        view.zoom_at(3.0, at, area(), SIZE);
+        assert_eq!(view.zoom(area(), SIZE), 6.0);
+        assert_eq!(view.pixel(at, area(), SIZE), before);
+        view.zoom_at(1e9, at, area(), SIZE);
+        assert_eq!(view.zoom(area(), SIZE), 64.0);
+        view.fit();
+        assert_eq!(view.zoom(area(), SIZE), 2.0);
+    }
+
+    #[test]
+    fn panning_moves_the_picture_with_the_pointer() {
+        let mut view = View::default();
+        let at = pos2(200.0, 200.0);
+        let before = view.pixel(at, area(), SIZE);
+        view.pan(vec2(30.0, -10.0), area(), SIZE);
+        assert_eq!(view.pixel(at + vec2(30.0, -10.0), area(), SIZE), before);
+        view.pan(vec2(1e6, 0.0), area(), SIZE);
+        assert_eq!(
+            view.pixel(area().center(), area(), SIZE).map(|p| p[0]),
+            Some(0),
+            "some of it stays in sight"
+        );
+    }
+
+    #[test]
+    fn a_region_has_whole_pixels_within_the_picture() {
+        let view = View::default();
+        let region = view.region([pos2(30.4, 140.6), pos2(9.0, 90.0)], area(), SIZE);
+        assert_eq!(region, Some([[0, 0], [10, 10]]));
+        assert_eq!(view.region([pos2(30.0, 140.0); 2], area(), SIZE), None);
+        assert_eq!(view.place_of([[0, 0], [10, 10]], area(), SIZE).max, pos2(30.0, 140.0));
+    }
+}

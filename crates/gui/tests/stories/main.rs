@@ -1,0 +1,207 @@
+//! Stories of people at the window: the program runs on a display, gets keys, and what is seen is judged.
+//!
+//! Without `DISPLAY` they fail: `cargo xtask test` provides a display.
+
+mod screen;
+
+use screen::{Screen, keys, scratch};
+use std::path::Path;
+use std::process::Command;
+use std::time::Duration;
+
+const LARGE: [u16; 2] = [1280, 800];
+const SMALL: [u16; 2] = [960, 600];
+
+/// Even light from everywhere, seen through a camera whose sensor gathers a fifth of what saturates it.
+fn even_light(folder: &Path) -> String {
+    let text = r#"<?xml version="1.0" encoding="utf-8"?>
+<scene>
+    <renderer_settings>
+        <width>300</width><height>300</height><super_sample_factor>2</super_sample_factor>
+        <bidirectional>false</bidirectional><metropolis>false</metropolis>
+        <aperture_diffraction>false</aperture_diffraction><vignetting>false</vignetting>
+        <save_igi>true</save_igi>
+        <halt_samples_per_pixel>4</halt_samples_per_pixel>
+    </renderer_settings>
+    <tonemapping><camera><response_function_path></response_function_path>
+        <ev_adjust>EV</ev_adjust><film_iso>100</film_iso></camera></tonemapping>
+    <background><spectrum><uniform><value>1.0e5</value></uniform></spectrum></background>
+    <camera>
+        <pos>0 0 0</pos><up>0 0 1</up><forwards>0 1 0</forwards><aperture_radius>0.001</aperture_radius>
+        <focus_distance>1</focus_distance><aspect_ratio>1</aspect_ratio><sensor_width>0.036</sensor_width>
+        <lens_sensor_dist>0.05</lens_sensor_dist><exposure_duration>0.01</exposure_duration>
+        <white_balance>E</white_balance>
+    </camera>
+</scene>
+"#;
+    write(folder, "even.igs", &text.replace("EV", "0.0"))
+}
+
+fn write(folder: &Path, name: &str, text: &str) -> String {
+    let path = folder.join(name);
+    std::fs::write(&path, text).expect("the scene is written");
+    path.display().to_string()
+}
+
+fn testscene(name: &str) -> String {
+    format!("{}/../../testscenes/{name}", env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Waits until a picture is seen: something other than the grey around it, or the black before the window is drawn.
+fn wait_for_picture(screen: &mut Screen) {
+    screen.wait_for("picture", |screen| {
+        let seen = screen.see_picture();
+        let first = seen.pixels[0];
+        let is_ground = |p: &[u8; 3]| p[0] == p[1] && p[1] == p[2] && [0, 38, 150].contains(&p[0]);
+        (!is_ground(&first) && !seen.pixels.iter().any(is_ground)).then_some(())
+    });
+}
+
+#[test]
+fn a_step_of_exposure_doubles_the_light_and_reset_takes_it_back() {
+    let folder = scratch("exposure");
+    let mut screen = Screen::start(&folder, LARGE, &[&even_light(&folder), "-o", "even.png"]);
+    wait_for_picture(&mut screen);
+    let before = screen.see_picture().light();
+    assert!(before.iter().all(|light| (0.02..0.4).contains(light)), "{before:?}");
+    // Half a stop each.
+    screen.press(&[keys::BRACKET_RIGHT]);
+    screen.press(&[keys::BRACKET_RIGHT]);
+    // Codes are whole numbers: at 0.1 of full light a step between two is less than 2.5 % of the light.
+    let is_doubled = |after: [f64; 3]| {
+        before.iter().zip(after).all(|(before, after)| (after / before / 2.0 - 1.0).abs() < 0.03)
+    };
+    screen.wait_for("doubled light", |screen| is_doubled(screen.see_picture().light()).then_some(()));
+    screen.press(&[0xff08]);
+    screen.wait_for("the first light", |screen| {
+        let after = screen.see_picture().light();
+        before.iter().zip(after).all(|(a, b)| (a - b).abs() < 1e-6).then_some(())
+    });
+    std::fs::remove_dir_all(&folder).expect("the story's own files");
+}
+
+#[test]
+fn a_picture_grows_rests_is_saved_and_seen_again() {
+    let folder = scratch("growing");
+    let scene = testscene("cornell_box.igs");
+    let mut screen = Screen::start(&folder, LARGE, &[&scene, "-o", "box.png", "-t", "1"]);
+    wait_for_picture(&mut screen);
+    let first = screen.see_picture().pixels;
+    screen.wait_for("change", |screen| (screen.see_picture().pixels != first).then_some(()));
+    screen.press(&[u32::from(b'p')]);
+    // The threads finish what they are at, and the picture is shown with all of it.
+    let mut last = screen.see_picture().pixels;
+    screen.wait_for("rest", |screen| {
+        std::thread::sleep(Duration::from_secs(2));
+        let now = screen.see_picture().pixels;
+        let rests = now == last;
+        last = now;
+        rests.then_some(())
+    });
+    screen.press(&[keys::CONTROL, u32::from(b's')]);
+    let png = folder.join("box.png");
+    screen.wait_for("saved picture", |_| std::fs::metadata(&png).is_ok_and(|m| m.len() > 0).then_some(()));
+    // A render is not lost by closing: the window asks. The first answer, saving, is next to Tab.
+    screen.ask_to_close();
+    std::thread::sleep(Duration::from_secs(1));
+    assert_eq!(screen.has_ended_well(), None, "the window must ask before it closes");
+    screen.see().keep("closing");
+    screen.press(&[keys::ESCAPE]);
+    std::thread::sleep(Duration::from_millis(500));
+    assert_eq!(screen.has_ended_well(), None, "it was told to stay");
+    drop(screen);
+    let mut again = Screen::start(&folder, LARGE, &[&scene, "-o", "again.png", "-haltspp", "1"]);
+    wait_for_picture(&mut again);
+    std::fs::remove_dir_all(&folder).expect("the story's own files");
+}
+
+#[test]
+fn a_film_is_looked_at_again() {
+    let folder = scratch("film");
+    let mut screen = Screen::start(&folder, LARGE, &[&even_light(&folder), "-o", "even.png"]);
+    let film = folder.join("even.igi");
+    screen.wait_for("film", |_| std::fs::metadata(&film).is_ok_and(|m| m.len() > 0).then_some(()));
+    // When nothing is rendered the window closes at once.
+    screen.wait_for("the end of saving", |_| folder.join("even.png").exists().then_some(()));
+    std::thread::sleep(Duration::from_secs(1));
+    screen.ask_to_close();
+    assert!(screen.wait_for_end());
+    drop(screen);
+    let mut again = Screen::start(&folder, LARGE, &[&film.display().to_string()]);
+    wait_for_picture(&mut again);
+    again.see().keep("film");
+    std::fs::remove_dir_all(&folder).expect("the story's own files");
+}
+
+/// Both themes at two sizes, with all that a scene brings: kept for people to look at. That something is there, and that the
+/// themes differ, is judged here.
+#[test]
+fn both_themes_at_two_sizes() {
+    for (size, name) in [(LARGE, "large"), (SMALL, "small")] {
+        let folder = scratch(name);
+        let scene = testscene("cornell_box.igs");
+        let mut screen = Screen::start(&folder, size, &[&scene, "-o", "box.png", "-haltspp", "32"]);
+        wait_for_picture(&mut screen);
+        screen.wait_for("the end", |_| folder.join("box.png").exists().then_some(()));
+        screen.point([(size[0] - 324) as i16 / 2, 250]);
+        std::thread::sleep(Duration::from_secs(2));
+        let dark = screen.see();
+        dark.keep(&format!("dark-{name}"));
+        screen.press(&[keys::F2]);
+        std::thread::sleep(Duration::from_millis(700));
+        let light = screen.see();
+        light.keep(&format!("light-{name}"));
+        // The tool bar's ground.
+        let at = 4 * usize::from(size[0]) + 4;
+        assert!(
+            light.pixels[at][0] > dark.pixels[at][0] + 100,
+            "{:?} {:?}",
+            light.pixels[at],
+            dark.pixels[at]
+        );
+        for tab in ["render", "scene", "queue"] {
+            // Control and the number of a tab.
+            let number = match tab {
+                "render" => b'2',
+                "scene" => b'3',
+                _ => b'4',
+            };
+            screen.press(&[keys::CONTROL, u32::from(number)]);
+            std::thread::sleep(Duration::from_millis(400));
+            screen.see().keep(&format!("light-{name}-{tab}"));
+        }
+        std::fs::remove_dir_all(&folder).expect("the story's own files");
+    }
+}
+
+#[test]
+fn the_keyboard_reaches_the_controls() {
+    let folder = scratch("keyboard");
+    let mut screen = Screen::start(&folder, LARGE, &[]);
+    std::thread::sleep(Duration::from_secs(1));
+    // The first control is the menu of files: Tab goes there, Space opens it.
+    screen.press(&[keys::TAB]);
+    let closed = screen.see().pixels;
+    screen.press(&[keys::SPACE]);
+    screen.wait_for("menu", |screen| {
+        let now = screen.see().pixels;
+        (now.iter().zip(&closed).filter(|(a, b)| a != b).count() > 3000).then_some(())
+    });
+}
+
+#[test]
+fn without_a_display_the_console_is_named() {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_indigo"));
+    let output = command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").output().expect("it starts");
+    assert_eq!(output.status.code(), Some(1));
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(said.contains("indigo_console") && said.contains("display"), "{said}");
+}
+
+#[test]
+fn options_of_the_console_are_named() {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_indigo"));
+    let output = command.args(["--merge", "a.igi", "b.igi", "-o", "c.igi"]).output().expect("it starts");
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("indigo_console"));
+}
