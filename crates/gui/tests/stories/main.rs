@@ -25,7 +25,7 @@ fn even_light(folder: &Path) -> String {
     </renderer_settings>
     <tonemapping><camera><response_function_path></response_function_path>
         <ev_adjust>EV</ev_adjust><film_iso>100</film_iso></camera></tonemapping>
-    <background><spectrum><uniform><value>1.0e5</value></uniform></spectrum></background>
+    <background><spectrum><uniform><value>1.0e8</value></uniform></spectrum></background>
     <camera>
         <pos>0 0 0</pos><up>0 0 1</up><forwards>0 1 0</forwards><aperture_radius>0.001</aperture_radius>
         <focus_distance>1</focus_distance><aspect_ratio>1</aspect_ratio><sensor_width>0.036</sensor_width>
