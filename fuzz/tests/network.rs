@@ -40,45 +40,32 @@ fn parcel() -> Vec<u8> {
     bytes
 }
 
-/// Each damage twice, the second time with a hash that makes it look sound. Whatever is taken, the master's film stays one
-/// that can be saved, and counts whole samples.
+/// Whatever is taken, the master's film stays one that can be saved, and counts whole samples.
 #[test]
 fn upload() {
     fuzz(&[parcel()], |bytes| {
-        let mut parcel = bytes.to_vec();
-        for _ in 0..2 {
-            // As a master does, so that no parcel is unpacked that is larger than the film.
-            let opened = Parcel::open(&parcel);
-            if parcel_size(&parcel) == Ok(size()) {
-                assert_eq!(
-                    opened.as_ref().err(),
-                    read_parcel(&parcel).as_ref().err(),
-                    "both ways see the same"
-                );
+        // As a master does, so that no parcel is unpacked that is larger than the film.
+        let opened = Parcel::open(bytes);
+        if parcel_size(bytes) == Ok(size()) {
+            let unpacked = read_parcel(bytes);
+            assert_eq!(opened.as_ref().err(), unpacked.as_ref().err(), "both ways see the same");
+        }
+        if let Ok(sent) = opened
+            && sent.size() == size()
+        {
+            let mut ledger = Ledger::new(film(0.0)).unwrap();
+            let taken = ledger.take(SEED, &sent);
+            let sum = ledger.copy();
+            if taken.is_ok() {
+                let mut unpacked = film(0.0);
+                unpacked.merge(&read_parcel(bytes).unwrap()).unwrap();
+                assert_eq!(sum, unpacked);
             }
-            if let Ok(sent) = opened
-                && sent.size() == size()
-            {
-                let mut ledger = Ledger::new(film(0.0)).unwrap();
-                let taken = ledger.take(SEED, &sent);
-                let sum = ledger.copy();
-                if taken.is_ok() {
-                    let mut unpacked = film(0.0);
-                    unpacked.merge(&read_parcel(&parcel).unwrap()).unwrap();
-                    assert_eq!(sum, unpacked);
-                }
-                let whole = |n: f64| n >= 0.0 && n.fract() == 0.0;
-                assert!(sum.film.layers.iter().flat_map(|l| &l.sums).flatten().all(|v| v.is_finite()));
-                assert!(sum.film.layers.iter().flat_map(|l| &l.counts).all(|n| whole(*n)));
-                assert!(
-                    sum.film.layers.iter().all(|l| whole(l.totals.n_samples) && l.totals.b_sum.is_finite())
-                );
-                assert_eq!(sum == film(0.0), taken.is_err(), "{taken:?}");
-            }
-            if let Some(content) = parcel.len().checked_sub(32) {
-                let hash = *blake3::hash(&parcel[..content]).as_bytes();
-                parcel[content..].copy_from_slice(&hash);
-            }
+            let whole = |n: f64| n >= 0.0 && n.fract() == 0.0;
+            assert!(sum.film.layers.iter().flat_map(|l| &l.sums).flatten().all(|v| v.is_finite()));
+            assert!(sum.film.layers.iter().flat_map(|l| &l.counts).all(|n| whole(*n)));
+            assert!(sum.film.layers.iter().all(|l| whole(l.totals.n_samples) && l.totals.b_sum.is_finite()));
+            assert_eq!(sum == film(0.0), taken.is_err(), "{taken:?}");
         }
     });
 }

@@ -88,10 +88,22 @@ pub fn unpack(arguments: &Arguments, console: &mut Console) -> u8 {
             RENDERED
         }
         Err(error) => {
-            console.error(&format!("{}: {error}", folder.display()));
+            console.error(&error.to_string());
             if error.kind() == ErrorKind::InvalidData { BAD_INPUT } else { FAILED }
         }
     }
+}
+
+/// Says where an error is, too.
+fn at(path: &Path) -> impl Fn(Error) -> Error {
+    move |error| Error::new(error.kind(), format!("{}: {error}", path.display()))
+}
+
+fn write_new(path: &Path, content: &[u8]) -> std::io::Result<()> {
+    path.parent().map_or(Ok(()), std::fs::create_dir_all)?;
+    let mut file = File::create_new(path)?;
+    file.write_all(content)?;
+    file.sync_all()
 }
 
 /// Writes all files into a folder beside the one to be, which takes its place when all are there.
@@ -100,21 +112,18 @@ fn unpack_as_a_whole(pack: &Pack, folder: &Path) -> std::io::Result<()> {
     unfinished.push(".unpacking");
     let unfinished = Path::new(&unfinished);
     if let Some(above) = folder.parent() {
-        std::fs::create_dir_all(above)?;
+        std::fs::create_dir_all(above).map_err(at(above))?;
     }
-    std::fs::create_dir(unfinished)?;
+    std::fs::create_dir(unfinished).map_err(at(unfinished))?;
     let written = pack.members().try_for_each(|(name, _)| {
         let content = pack.read(name).map_err(|error| Error::new(ErrorKind::InvalidData, error))?;
         let path = unfinished.join(name);
-        path.parent().map_or(Ok(()), std::fs::create_dir_all)?;
-        let mut file = File::create_new(path)?;
-        file.write_all(&content)?;
-        file.sync_all()
+        write_new(&path, &content).map_err(at(&path))
     });
     let moved = written.and_then(|()| {
         // An empty folder of that name may be there.
         drop(std::fs::remove_dir(folder));
-        std::fs::rename(unfinished, folder)
+        std::fs::rename(unfinished, folder).map_err(at(folder))
     });
     if moved.is_err() {
         // Best effort: the error that matters is the one being returned.

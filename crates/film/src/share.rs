@@ -7,7 +7,7 @@ const MOST_SAMPLES: f64 = (1u64 << 53) as f64;
 
 /// Whether a number is one that counting by ones gives.
 pub fn is_count(n: f64) -> bool {
-    n.fract() == 0.0 && (0.0..=MOST_SAMPLES).contains(&n)
+    (n.trunc() == n) & (0.0 <= n) & (n <= MOST_SAMPLES)
 }
 
 /// What a layer counts.
@@ -31,7 +31,8 @@ impl Counted {
 
     /// Adds the counts of more pixels.
     pub(crate) fn count(&mut self, counts: &[f64]) {
-        let all = counts.iter().all(|n| is_count(*n));
+        // Without an early end, so that it is done for many at a time.
+        let all = counts.iter().fold(true, |all, n| all & is_count(*n));
         self.samples = self.samples.filter(|_| all).map(|sum| sum + counts.iter().sum::<f64>());
     }
 }

@@ -59,6 +59,13 @@ pub enum Event {
         /// Units of work that never came, and will not: the slave was killed, or the film is older than what it sent.
         missing: u64,
     },
+    /// To a working master: samples of its own were added to the film.
+    Rendered {
+        /// How many.
+        samples: u64,
+        /// The seed and units that they are of.
+        run: Run,
+    },
     /// To a master: samples came again that are in the film, since the first answer was lost.
     Repeated {
         /// The slave's machine.
@@ -128,6 +135,7 @@ impl Event {
     pub fn weight(&self) -> Weight {
         match self {
             Self::Added { missing: 0, .. }
+            | Self::Rendered { .. }
             | Self::Repeated { .. }
             | Self::Sent { .. }
             | Self::Fetching { .. } => Weight::Detail,
@@ -147,7 +155,7 @@ impl Event {
             Self::Joined { .. } => "joined",
             Self::Left { .. } => "left",
             Self::Lost { .. } => "lost",
-            Self::Added { .. } => "added",
+            Self::Added { .. } | Self::Rendered { .. } => "added",
             Self::Repeated { .. } => "repeated",
             Self::Refused { .. } => "refused",
             Self::Searching => "searching",
@@ -182,6 +190,7 @@ impl Event {
                 fields.extend(of_upload(*samples, *bytes, *run));
                 fields
             }
+            Self::Rendered { samples, run } => of_upload(*samples, 0, *run).into(),
             Self::Repeated { slave } => vec![("slave", text(slave))],
             Self::Refused { peer, more, .. } => {
                 vec![("peer", text(peer)), ("untold", Field::Number(*more as f64))]
@@ -250,6 +259,7 @@ impl fmt::Display for Event {
             Self::Added { slave, samples, missing, .. } => {
                 write!(f, "{slave} has sent {samples} samples; {missing} units of work before them are lost")
             }
+            Self::Rendered { samples, .. } => write!(f, "Added {samples} samples of this machine"),
             Self::Repeated { slave } => write!(f, "{slave} has sent again what is in the film already"),
             Self::Refused { peer, reason, more: 0 } => write!(f, "{peer} was refused: {reason}"),
             Self::Refused { peer, reason, more } => {

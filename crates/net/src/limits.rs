@@ -12,6 +12,8 @@ pub const PORT: u16 = 7777;
 pub const PIECE: usize = 32 << 10;
 /// The most bytes of a message: a piece, or a reply with a settings file, and something for the numbers round them.
 pub const MESSAGE: usize = 1 << 20;
+/// The most bytes of a settings file, which travels in one message.
+pub const SETTINGS: usize = MESSAGE / 2;
 /// The most connections at a time.
 pub const CONNECTIONS: usize = 256;
 /// The most calls at a time over a connection: a slave makes one after another, and reports meanwhile.

@@ -20,8 +20,7 @@ const VALGRIND: Needed =
 const RECORD: &str = "tests/instructions.json";
 /// What is counted, by its name in the benchmark.
 const COUNTED: &str = "*indigo_counted*";
-/// Counts may differ by this part. Runs of one program differ by nothing at all, on other machines too as far as valgrind
-/// shows the program one and the same processor; but a compiler lays out a kernel a little differently when a neighbour changes, and
+/// Counts may differ by this part. Runs of one program differ by nothing at all; but a compiler lays out a kernel a little differently when a neighbour changes, and
 /// that is not what is to be caught.
 const TOLERANCE: f64 = 0.02;
 /// The processor that the kernels are built for here: valgrind before 3.23 does not know all instructions of x86-64-v3, for which

@@ -12,7 +12,7 @@ use indigo_front::status::{BAD_INPUT, FAILED, RENDERED};
 use indigo_front::{packs, paths, program};
 use indigo_net::event::Event;
 use indigo_net::ledger::Refusal;
-use indigo_net::limits::PORT;
+use indigo_net::limits::{PORT, SETTINGS};
 use indigo_net::master::{Master, OwnStatus, SceneParcel, Setup};
 use indigo_render::disk::read_limited;
 use indigo_render::memory::check_master;
@@ -108,6 +108,10 @@ fn parcel(scene: &Scene, arguments: &Arguments) -> Result<SceneParcel, String> {
     let settings_file = paths::inifile()
         .map(|path| read_limited(Path::new(&path)).map_err(|error| format!("cannot read {path}: {error}")))
         .transpose()?;
+    if let Some(file) = settings_file.as_ref().filter(|file| file.len() > SETTINGS) {
+        let bytes = file.len();
+        return Err(format!("the settings file has {bytes} bytes; slaves are sent at most {SETTINGS}"));
+    }
     let overrides = arguments.settings.iter().filter(|setting| !OWN.contains(&setting.setting));
     let texts = overrides.map(|s| [s.option.to_owned(), s.setting.to_owned(), s.value.clone()]);
     Ok(SceneParcel::new(scene, pack, settings_file, texts.collect()))
@@ -181,27 +185,33 @@ impl Own {
         });
     }
 
-    /// Adds what it has rendered to the film.
-    fn hand_over(&mut self, master: &Master, program: &str) -> Result<(), Refusal> {
-        let Some(film) = self.session.drain(program) else { return Ok(()) };
+    /// Adds what it has rendered to the film; what that was.
+    fn hand_over(&mut self, master: &Master, program: &str) -> Result<Option<Event>, Refusal> {
+        let Some(film) = self.session.drain(program) else { return Ok(None) };
         master.add(self.seed, &film)?;
-        self.added += film.record.as_ref().map_or(0, |record| record.samples);
+        let samples = film.record.as_ref().map_or(0, |record| record.samples);
+        self.added += samples;
         self.progress = self.session.progress();
         self.tell(master);
-        Ok(())
+        let run = film.record.and_then(|record| record.runs.first().copied());
+        Ok(run.map(|run| Event::Rendered { samples, run }))
     }
 
     /// Ends it, with all that it has.
-    fn end(&mut self, master: &Master, program: &str) -> Result<(), Refusal> {
+    fn end(&mut self, master: &Master, program: &str) -> Result<Option<Event>, Refusal> {
         self.session.stop();
         while !matches!(self.session.wait(PULSE), SessionEvent::Halted(..)) {}
         self.hand_over(master, program)
     }
 }
 
-/// Says that what was rendered here is not taken.
-fn complain(refusal: &Refusal, console: &mut Console) {
-    console.warn(&format!("what was rendered here does not fit the film: {refusal}"));
+/// Says what became of what was rendered here.
+fn say_added(added: &Result<Option<Event>, Refusal>, console: &mut Console) {
+    match added {
+        Ok(Some(event)) => console.event(event),
+        Ok(None) => {}
+        Err(refusal) => console.warn(&format!("what was rendered here does not fit the film: {refusal}")),
+    }
 }
 
 /// A render of many machines.
@@ -250,17 +260,15 @@ impl Run {
     fn save(&mut self, console: &mut Console) {
         let Self { master, own, saver, .. } = self;
         let version = saver.job().version.clone();
-        let mut refusal = None;
+        let mut added = Ok(None);
         let film = || {
-            refusal = own.as_mut().and_then(|own| own.hand_over(master, &version).err());
+            added = own.as_mut().map_or(Ok(None), |own| own.hand_over(master, &version));
             master.copy()
         };
         if let Some(record) = saver.tend(film, console) {
             master.saved(record);
         }
-        if let Some(refusal) = refusal {
-            complain(&refusal, console);
-        }
+        say_added(&added, console);
     }
 
     fn is_enough(&self, progress: &Progress) -> bool {
@@ -304,10 +312,8 @@ impl Run {
     fn finish(mut self, failure: Option<&HaltReason>, console: &mut Console) -> u8 {
         let program = self.saver.job().version.clone();
         self.master.begin_end();
-        let ended = self.own.as_mut().map_or(Ok(()), |own| own.end(&self.master, &program));
-        if let Err(refusal) = ended {
-            complain(&refusal, console);
-        }
+        let added = self.own.as_mut().map_or(Ok(None), |own| own.end(&self.master, &program));
+        say_added(&added, console);
         self.wait_for_rest(console);
         if let Some(record) = self.saver.wait_for_last(console) {
             self.master.saved(record);

@@ -56,26 +56,20 @@ impl Farm {
 
     /// Starts a slave with that seed, which finds the master at that port.
     pub fn slave(&self, seed: u64, port: u16) -> Running {
-        let (host, log) = (format!("127.0.0.1:{port}"), format!("slave{seed}.json"));
-        let seed = seed.to_string();
-        self.bench.start_as(
-            &format!("slave{seed}"),
-            &[
-                "-n",
-                "s",
-                "-h",
-                &host,
-                "--key-file",
-                "key",
-                "-seed",
-                &seed,
-                "-t",
-                "1",
-                "--log-json",
-                &log,
-                "-verbose",
-            ],
-        )
+        self.start_slave(seed, &["-h", &format!("127.0.0.1:{port}")])
+    }
+
+    /// Starts a slave with that seed, which has to look for a master.
+    pub fn searching_slave(&self, seed: u64) -> Running {
+        self.start_slave(seed, &[])
+    }
+
+    fn start_slave(&self, seed: u64, more: &[&str]) -> Running {
+        let (name, log, seed) = (format!("slave{seed}"), format!("slave{seed}.json"), seed.to_string());
+        let mut arguments = vec!["-n", "s", "--key-file", "key", "-seed", &seed, "-t", "1"];
+        arguments.extend(["--log-json", &log, "-verbose"]);
+        arguments.extend(more);
+        self.bench.start_as(&name, &arguments)
     }
 
     /// What a process has said so far.

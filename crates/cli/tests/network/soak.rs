@@ -41,6 +41,8 @@ fn soak(rounds: u64, seed: u64) {
     let mut script = Script(seed);
     farm.wait_for_uploads(1, 2);
     let before = memory_kib(&veteran);
+    // A master's memory, and how much more it has come to be: for one that lives long enough to be asked twice.
+    let mut master = farm.master.as_ref().and_then(memory_kib);
     for round in 0..rounds {
         match script.below(4) {
             0 => {
@@ -55,6 +57,8 @@ fn soak(rounds: u64, seed: u64) {
                 farm.kill_master();
                 std::thread::sleep(Duration::from_millis(script.below(500)));
                 farm.resume_master("m");
+                farm.wait_for_uploads(1, 2);
+                master = farm.master.as_ref().and_then(memory_kib);
             }
             2 => {
                 proxy.cut();
@@ -69,6 +73,9 @@ fn soak(rounds: u64, seed: u64) {
         if round % 4 == 3 {
             // Nothing hangs: whatever has happened, uploads come through.
             farm.wait_for_uploads(1, 1);
+        }
+        if let (Some(before), Some(after)) = (master, farm.master.as_ref().and_then(memory_kib)) {
+            assert!(after < before + GROWTH_KIB, "the master's {before} KiB have become {after}");
         }
     }
     proxy.slow(Duration::ZERO, 0);

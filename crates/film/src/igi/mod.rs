@@ -16,8 +16,8 @@
 //! developed, but not gone on with.
 //!
 //! A *parcel* is a film on its way from a network slave to its master, and no file: the eight bytes of `PARCEL_MARK`, u32
-//! `SECTION_VERSION`, u32 width, height (internal pixels) and super-sampling factor, then the film section, with sums and
-//! counts as f32, then the hash.
+//! `SECTION_VERSION`, u32 width, height (internal pixels) and super-sampling factor, then the film section, with sums as
+//! f32. It has no hash: the connection by which it travels proves each of its bytes.
 //!
 //! Reading never panics. Its memory is bounded by the file's size: the image alone needs 12 bytes per
 //! internal pixel, and no file has more than `MAX_LAYERS` layers.

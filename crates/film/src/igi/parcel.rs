@@ -1,13 +1,13 @@
 //! Parcels: films on their way, added to others without being unpacked as a whole.
 
-use super::blocks::{BLOCK, Packed};
-use super::read::{Content, PackedLayer, check_counts, sound_content};
+use super::blocks::{BLOCK, Scratch};
+use super::read::{Content, PackedLayer, check_counts, parcel_content};
 use super::{IgiError, parcel_size};
 use crate::share::{Counted, Share};
 use crate::{FilmError, FilmRecord, FilmSize, FilmState, Mismatch, SavedFilm};
 
-/// What [`write_parcel`](super::write_parcel) has written, looked through and found sound: the hash is that of the content,
-/// and all sums and counts can be. Its numbers stay packed: block by block they are unpacked to be looked at and again to be
+/// What [`write_parcel`](super::write_parcel) has written, looked through and found sound:
+/// all sums and counts can be. Its numbers stay packed: block by block they are unpacked to be looked at and again to be
 /// added, in the processor's cache, which takes less time than a film of room that is cleared, filled and read again.
 pub struct Parcel<'a> {
     content: Content<'a>,
@@ -15,18 +15,16 @@ pub struct Parcel<'a> {
 }
 
 impl<'a> Parcel<'a> {
-    /// Looks through a parcel. Runs on the caller's rayon pool.
+    /// Looks through a parcel.
     ///
     /// # Errors
     /// See [`IgiError`]: what comes from another machine is believed as little as a file.
     pub fn open(parcel: &'a [u8]) -> Result<Self, IgiError> {
         let size = parcel_size(parcel)?;
-        let (is_sound, opened) = sound_content(parcel, size, |content| {
-            let counted = content.layers.iter().map(|layer| look_through(layer, size));
-            let counted = counted.collect::<Result<_, _>>()?;
-            Ok(Self { content, counted })
-        })?;
-        if is_sound { opened } else { Err(IgiError::Checksum) }
+        let content = parcel_content(parcel, size)?;
+        let counted = content.layers.iter().map(|layer| look_through(layer, size));
+        let counted = counted.collect::<Result<_, _>>()?;
+        Ok(Self { content, counted })
     }
 
     /// The size of the film.
@@ -45,18 +43,15 @@ impl<'a> Parcel<'a> {
         if !is_same {
             return Err(FilmError::LayerMismatch);
         }
-        let mut room = Room::default();
+        let mut scratch = Scratch::default();
         for (mine, theirs) in film.layers.iter_mut().zip(layers) {
             mine.totals.add(&theirs.totals);
-            let Room { planes, values } = &mut room;
             for (packed, sums) in
                 [(&theirs.sums, mine.sums.as_flattened_mut()), (&theirs.counts, &mut mine.counts[..])]
             {
                 for (i, sums) in sums.chunks_mut(BLOCK).enumerate() {
-                    values.resize(sums.len(), 0.0);
                     // The same bytes were unpacked before without a fault.
-                    packed.unpack_block(i, planes, values).map_err(|_| FilmError::LayerMismatch)?;
-                    sums.iter_mut().zip(&*values).for_each(|(sum, value)| *sum += value);
+                    packed.add_block(i, &mut scratch, sums).map_err(|_| FilmError::LayerMismatch)?;
                 }
             }
         }
@@ -65,40 +60,25 @@ impl<'a> Parcel<'a> {
     }
 }
 
-/// What unpacking needs room for.
-#[derive(Default)]
-struct Room {
-    planes: Vec<u8>,
-    values: Vec<f64>,
-}
-
 /// Unpacks all blocks of a layer and sees that they are sound; what it counts.
 fn look_through(layer: &PackedLayer<'_>, size: FilmSize) -> Result<Counted, IgiError> {
-    let (pixels, mut room) = (size.internal_pixels(), Room::default());
+    let (pixels, mut scratch, mut values) = (size.internal_pixels(), Scratch::default(), vec![]);
     let mut counted = Counted::new(layer.kind, layer.totals, &[]);
-    room.each_block(&layer.sums, 4 * pixels, |_| Ok(()))?;
-    room.each_block(&layer.counts, layer.kind.count_slots(pixels), |counts| {
-        counted.count(counts);
-        check_counts(counts)
-    })?;
+    for (i, sums) in block_lengths(4 * pixels) {
+        layer.sums.check_block(i, &mut scratch, sums)?;
+    }
+    for (i, counts) in block_lengths(layer.kind.count_slots(pixels)) {
+        values.resize(counts, 0.0);
+        layer.counts.unpack_block(i, &mut scratch, &mut values)?;
+        counted.count(&values);
+        check_counts(&values)?;
+    }
     Ok(counted)
 }
 
-impl Room {
-    /// Shows `look` so many numbers, block by block.
-    fn each_block(
-        &mut self,
-        packed: &Packed<'_>,
-        numbers: usize,
-        mut look: impl FnMut(&[f64]) -> Result<(), IgiError>,
-    ) -> Result<(), IgiError> {
-        for i in 0..numbers.div_ceil(BLOCK) {
-            self.values.resize(BLOCK.min(numbers - i * BLOCK), 0.0);
-            packed.unpack_block(i, &mut self.planes, &mut self.values)?;
-            look(&self.values)?;
-        }
-        Ok(())
-    }
+/// The blocks of so many numbers: which it is, and how many numbers it has.
+fn block_lengths(numbers: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..numbers.div_ceil(BLOCK)).map(move |i| (i, BLOCK.min(numbers - i * BLOCK)))
 }
 
 impl Share for Parcel<'_> {

@@ -1,6 +1,6 @@
 //! Reading a film, with nothing in the file believed.
 
-use super::blocks::{BLOCK, Packed, Precision};
+use super::blocks::{BLOCK, Packed, Precision, Scratch};
 use super::bytes::Bytes;
 use super::foreign;
 use super::{HASH, IMAGE, IgiError, MAGIC, MARK, MAX_LAYERS, PADDING, PARCEL_MARK, SECTION_VERSION, VERSION};
@@ -125,24 +125,14 @@ impl IgiFile {
 /// of the film that it says it is, of which it must hold a part: see [`parcel_size`] for who wants no other.
 pub fn read_parcel(parcel: &[u8]) -> Result<SavedFilm, IgiError> {
     let size = parcel_size(parcel)?;
-    let (is_sound, film) = sound_content(parcel, size, Content::unpack)?;
-    if is_sound { film } else { Err(IgiError::Checksum) }
+    parcel_content(parcel, size)?.unpack()
 }
 
-/// Makes something of the content of a parcel of that size while its hash is computed; whether that is right, and what was
-/// made.
-pub(super) fn sound_content<'a, T: Send>(
-    parcel: &'a [u8],
-    size: FilmSize,
-    make: impl FnOnce(Content<'a>) -> Result<T, IgiError> + Send,
-) -> Result<(bool, Result<T, IgiError>), IgiError> {
-    let split = parcel.len().checked_sub(HASH).filter(|&n| n >= PARCEL_HEADER);
-    let (content, hash) = split.map(|n| parcel.split_at(n)).ok_or(IgiError::Truncated("the header"))?;
-    let mut bytes = Bytes(content);
+/// The content of a parcel of that size, nothing of which has been unpacked yet.
+pub(super) fn parcel_content(parcel: &[u8], size: FilmSize) -> Result<Content<'_>, IgiError> {
+    let mut bytes = Bytes(parcel);
     bytes.take(PARCEL_HEADER, "the header")?;
-    let read = || Content::read_section(bytes, size, Precision::Single).and_then(make);
-    let (found, made) = rayon::join(|| blake3::hash(content), read);
-    Ok((found.as_bytes() == hash, made))
+    Content::read_section(bytes, size, Precision::Single)
 }
 
 /// Bytes before the film section of a parcel.
@@ -292,7 +282,7 @@ pub(super) struct PackedLayer<'a> {
 /// What unpacking needs room for.
 #[derive(Default)]
 struct Room {
-    planes: Vec<u8>,
+    scratch: Scratch,
     sums: Vec<[f64; 4]>,
     counts: Vec<f64>,
 }
@@ -314,7 +304,7 @@ impl<'a> PackedLayer<'a> {
         }
         let pixels = size.internal_pixels();
         let sums = Packed::take(bytes, precision, 4 * pixels)?;
-        let counts = Packed::take(bytes, precision, kind.count_slots(pixels))?;
+        let counts = Packed::take(bytes, Precision::Double, kind.count_slots(pixels))?;
         Ok(Self { kind, name, totals, sums, counts })
     }
 
@@ -341,15 +331,15 @@ impl<'a> PackedLayer<'a> {
         /// Blocks of sums to one of counts, and the pixels of each.
         const PARTS: usize = 4;
         const PART: usize = BLOCK / PARTS;
-        let Room { planes, sums, counts } = room;
+        let Room { scratch, sums, counts } = room;
         counts.resize(self.kind.count_slots(out.len()), 0.0);
         if !counts.is_empty() {
-            self.counts.unpack_block(i, planes, counts)?;
+            self.counts.unpack_block(i, scratch, counts)?;
             check_counts(counts)?;
         }
         for (part, (out, missing)) in out.chunks_mut(PART).zip(missing.chunks_mut(PART)).enumerate() {
             sums.resize(out.len(), [0.0; 4]);
-            self.sums.unpack_block(i * PARTS + part, planes, sums.as_flattened_mut())?;
+            self.sums.unpack_block(i * PARTS + part, scratch, sums.as_flattened_mut())?;
             let counts = counts.get(part * PART..).unwrap_or_default();
             develop_layer(self.kind, &self.totals, size.internal_pixels(), (sums, counts), out, missing);
         }
@@ -358,7 +348,8 @@ impl<'a> PackedLayer<'a> {
 }
 
 pub(super) fn check_counts(counts: &[f64]) -> Result<(), IgiError> {
-    if counts.iter().any(|&n| n < 0.0) {
+    // Without an early end, so that it is done for many at a time.
+    if counts.iter().fold(false, |any, n| any | (*n < 0.0)) {
         return Err(IgiError::Malformed("a pixel has a negative number of samples"));
     }
     Ok(())

@@ -19,19 +19,17 @@ pub fn write(out: &mut impl Write, film: &FilmState, record: &FilmRecord) -> io:
 }
 
 /// Writes a film for another machine to add to its own, once: the film section alone, with sums in single precision, as
-/// all samples are gathered anyhow. That is a quarter of a file's bytes, or less.
+/// all samples are gathered anyhow. That is a quarter of a file's bytes, or less. Counts stay exact.
 ///
 /// # Errors
 /// Those of `out`.
 pub fn write_parcel(out: &mut impl Write, film: &FilmState, record: &FilmRecord) -> io::Result<()> {
-    let mut out = Hashing { out, hasher: blake3::Hasher::new() };
     out.write_all(&PARCEL_MARK)?;
     let size = film.size;
     for v in [SECTION_VERSION, size.internal_width(), size.internal_height(), size.super_sample()] {
         out.write_all(&v.to_le_bytes())?;
     }
-    write_section(&mut out, film, record, Precision::Single)?;
-    out.finish()
+    write_section(out, film, record, Precision::Single)
 }
 
 /// The record and the layers.
@@ -109,7 +107,7 @@ fn write_layer(out: &mut impl Write, layer: &Layer, precision: Precision) -> io:
         out.write_all(&v.to_le_bytes())?;
     }
     blocks::write(out, precision, layer.sums.as_flattened().iter().copied())?;
-    blocks::write(out, precision, layer.counts.iter().copied())
+    blocks::write(out, Precision::Double, layer.counts.iter().copied())
 }
 
 fn write_text(out: &mut impl Write, text: &str) -> io::Result<()> {

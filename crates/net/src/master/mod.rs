@@ -1,6 +1,7 @@
 //! The master: holds the film, hands out the scene, and adds what slaves send.
 
 mod listen;
+mod rooms;
 mod roster;
 mod service;
 mod status;
@@ -12,13 +13,14 @@ use crate::discovery::Announcement;
 use crate::event::{Event, Sink};
 use crate::key::Key;
 use crate::ledger::{Ledger, Receipt, Refusal};
-use crate::limits::{CALLS, KEEP_ALIVE, MESSAGE, ROOM, SILENCE, UPLOADS, parcel_bytes};
+use crate::limits::{CALLS, KEEP_ALIVE, MESSAGE, PIECE, SILENCE, UPLOADS, parcel_bytes};
 use crate::page::{self, View};
 use crate::proto::farm_server::FarmServer;
 use crate::{NetError, tls};
 use bytes::Bytes;
 use indigo_film::{FilmRecord, MasterFilm, SavedFilm};
 use indigo_scene::{Identity, Scene};
+use rooms::Rooms;
 use roster::{Refusals, Roster};
 use std::net::{Ipv4Addr, Ipv6Addr, SocketAddr};
 use std::path::PathBuf;
@@ -27,7 +29,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 use tokio::net::TcpListener;
 use tokio::runtime::Runtime;
-use tokio::sync::{Semaphore, oneshot};
+use tokio::sync::oneshot;
 use tokio_rustls::TlsAcceptor;
 use tokio_stream::wrappers::ReceiverStream;
 use tonic::transport::Server;
@@ -102,8 +104,7 @@ struct Shared {
     refusals: Mutex<Refusals>,
     /// Bytes of the largest parcel that can be one.
     parcel_limit: u64,
-    /// Room for parcels, in units of [`ROOM`].
-    uploads: Semaphore,
+    rooms: Rooms,
     own_seed: Option<u64>,
     own: Mutex<Option<OwnStatus>>,
     is_ending: AtomicBool,
@@ -177,7 +178,7 @@ impl Master {
             program,
             roster: Mutex::default(),
             refusals: Mutex::default(),
-            uploads: Semaphore::new((UPLOADS as u64 * parcel_bytes(film_bytes)).div_ceil(ROOM) as usize),
+            rooms: Rooms::new(parcel_bytes(film_bytes)),
             own_seed,
             own: Mutex::default(),
             is_ending: AtomicBool::new(false),
@@ -328,6 +329,8 @@ async fn serve(
         .concurrency_limit_per_connection(CALLS as usize)
         .initial_stream_window_size(WINDOW)
         .initial_connection_window_size(2 * WINDOW)
+        // A piece in one frame.
+        .max_frame_size(Some(2 * PIECE as u32))
         .http2_max_header_list_size(16 << 10)
         .add_service(farm)
         .serve_with_incoming_shutdown(ReceiverStream::new(connections), async {

@@ -5,7 +5,7 @@ use super::roster::{Introduction, Presence, SlaveId};
 use super::{Shared, lock};
 use crate::event::Event;
 use crate::ledger::{Receipt, Refusal, run_of};
-use crate::limits::{PIECE, PROTOCOL, REPORTS, ROOM, SILENCE};
+use crate::limits::{PIECE, PROTOCOL, REPORTS, SILENCE};
 use crate::proto::farm_server::Farm;
 use crate::proto::report_reply::Order;
 use crate::proto::report_request::State;
@@ -17,7 +17,6 @@ use crate::proto::{
 use bytes::Bytes;
 use indigo_film::igi::{Parcel, parcel_size};
 use indigo_film::{Run, Share as _};
-use indigo_render::pool::with_jobs;
 use std::net::{Ipv4Addr, SocketAddr};
 use std::pin::Pin;
 use std::sync::Arc;
@@ -266,10 +265,7 @@ impl Service {
             let what = format!("an upload of {} bytes is more than a film takes, {limit}", start.bytes);
             return Err(Status::resource_exhausted(what));
         }
-        // Not more than there is, as the length is within the limit.
-        let room = u32::try_from(start.bytes.div_ceil(ROOM)).unwrap_or(u32::MAX);
-        let _room = shared.uploads.acquire_many(room).await.map_err(failed)?;
-        let mut parcel = Vec::with_capacity(start.bytes as usize);
+        let mut parcel = shared.rooms.take(start.bytes).await.map_err(failed)?;
         while let Some(part) = next(&mut stream).await? {
             let Part::Data(data) = part else {
                 return Err(Status::invalid_argument("an upload has one beginning"));
@@ -296,8 +292,7 @@ fn add(shared: &Shared, seed: u64, parcel: &[u8]) -> Result<(Upload, Receipt), S
     if size != expected {
         return Err(Status::invalid_argument(format!("an upload is {size}, and the film is {expected}")));
     }
-    // A thread of its own and no more: the others may render.
-    let film = with_jobs(1, || Parcel::open(parcel)).map_err(damaged)?;
+    let film = Parcel::open(parcel).map_err(damaged)?;
     let receipt = shared
         .ledger()
         .take(seed, &film)

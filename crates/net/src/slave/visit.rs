@@ -22,6 +22,7 @@ use indigo_film::{FilmRecord, Run, SavedFilm};
 use indigo_render::Progress;
 use indigo_render::saved::blank_record;
 use indigo_scene::Scene;
+use std::error::Error as _;
 use std::future::Future;
 use std::net::SocketAddr;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -94,6 +95,12 @@ fn refusal(status: &Status) -> Outcome {
         }
         _ => Outcome::Lost(format!("the connection to the master is lost: {message}")),
     }
+}
+
+/// Whether it is the master that wants no such upload. Connections that end for too much traffic have a like code, and an
+/// error behind it.
+fn is_refused(status: &Status) -> bool {
+    matches!(status.code(), Code::InvalidArgument | Code::ResourceExhausted) && status.source().is_none()
 }
 
 /// A short call's answer.
@@ -378,7 +385,7 @@ impl Life {
                     (self.sink)(Event::Sent { samples, bytes, run });
                 }
                 // To be sent again it would have to become another.
-                Err(status) if matches!(status.code(), Code::InvalidArgument | Code::ResourceExhausted) => {
+                Err(status) if is_refused(&status) => {
                     work.outbox.discard();
                     (self.sink)(Event::LostSamples { samples, reason: "the master refuses them" });
                     (self.sink)(Event::Trouble(format!("the master refuses samples: {}", status.message())));
