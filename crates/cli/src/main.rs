@@ -6,6 +6,7 @@ mod net;
 mod packs;
 mod ptest;
 mod render;
+mod upgrade;
 
 use console::Console;
 use indigo_diag::{Diagnostic, Severity, Sink, SourceMap, summary_to_json, to_json};
@@ -67,6 +68,9 @@ fn run(arguments: &Arguments, console: &mut Console) -> u8 {
     }
     if arguments.unpack {
         return packs::unpack(arguments, console);
+    }
+    if arguments.upgrade {
+        return upgrade::upgrade(arguments, console);
     }
     if let Some(path) = &arguments.make_key {
         return net::make_key(Path::new(path), console);

@@ -13,6 +13,7 @@
 //! Nothing here knows XML or the renderer.
 
 pub mod bind;
+mod canonical;
 pub mod codes;
 pub mod element;
 pub mod field;

@@ -35,7 +35,7 @@ pub enum Role {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own on the command line")]
 pub struct Arguments {
-    /// The scene; with `merge`, `tone_map`, `pack` or `unpack` all files instead.
+    /// The scene; with `merge`, `tone_map`, `pack`, `unpack` or `upgrade` all files instead.
     pub files: Vec<String>,
     /// Names of the options in the order in which they were given.
     pub given: Vec<&'static str>,
@@ -55,6 +55,8 @@ pub struct Arguments {
     pub pack: bool,
     /// Only unpack a scene.
     pub unpack: bool,
+    /// Only write a scene anew.
+    pub upgrade: bool,
     /// Path of the picture.
     pub output: Option<String>,
     /// Only show what each strategy adds, by so many samples per pixel.
@@ -184,6 +186,7 @@ fn apply(flag: &Flag, value: String, parsed: &mut Arguments) -> Result<(), Strin
         Action::ToneMap => parsed.tone_map = true,
         Action::Pack => parsed.pack = true,
         Action::Unpack => parsed.unpack = true,
+        Action::Upgrade => parsed.upgrade = true,
         Action::Strategies => {
             let passes = value.parse().ok().filter(|n: &u32| *n > 0);
             parsed.strategies =

@@ -78,6 +78,10 @@ impl Saver {
         } else if !self.announced {
             self.announced = true;
             say_saved(&saved, messages);
+        } else {
+            for file in &saved.written {
+                messages.detail(&format!("Saved {} again", file.display()));
+            }
         }
         record.filter(|_| has_film)
     }

@@ -64,6 +64,7 @@ fn only_of_console(arguments: &Arguments) -> Option<&'static str> {
         "tonemap",
         "pack",
         "unpack",
+        "upgrade",
         "make-key",
         "dumpmetadata",
         "ptest",

@@ -33,4 +33,4 @@ pub use embedded::{EMBEDDED, EXPOSE_UV_SET, TRIANGLE_SET, VERTEX};
 pub use include::INCLUDE;
 pub use limits::Limits;
 pub use read::{read_document, read_scene};
-pub use write::write;
+pub use write::{write, write_explained};

@@ -1,6 +1,7 @@
 //! Trees to text.
 
-use indigo_decl::{Element, EmbeddedMesh};
+use indigo_decl::{Alternatives, Block, Element, EmbeddedMesh, Kind};
+use std::collections::HashSet;
 use std::fmt::Write as _;
 
 /// How what is written is laid out.
@@ -20,16 +21,27 @@ pub(crate) struct Layout {
 /// Text is written without blanks around it. Characters that XML cannot hold are left out.
 pub fn write(element: &Element) -> String {
     let layout = Layout { newline: "\n".into(), base: String::new(), unit: "\t".into() };
-    let mut writer =
-        Writer { out: String::from("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n"), layout: &layout };
-    writer.element(element, 0);
+    let mut writer = Writer { out: HEAD.to_owned(), layout: &layout, said: None };
+    writer.element(element, None, 0);
     writer.out
 }
 
+/// The same of an element of a declaration, with comments: `title` in front, and before the first element of each kind what
+/// that is.
+pub fn write_explained(element: &Element, block: &'static Block, title: &str) -> String {
+    let layout = Layout { newline: "\n".into(), base: String::new(), unit: "\t".into() };
+    let mut writer = Writer { out: HEAD.to_owned(), layout: &layout, said: Some(HashSet::new()) };
+    writer.comment(title, 0);
+    writer.element(element, Some(Declared::Block(block)), 0);
+    writer.out
+}
+
+const HEAD: &str = "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n";
+
 /// An element and all below it, without blanks before and after it.
 pub(crate) fn fragment(element: &Element, layout: &Layout) -> String {
-    let mut writer = Writer { out: String::new(), layout };
-    writer.element(element, 0);
+    let mut writer = Writer { out: String::new(), layout, said: None };
+    writer.element(element, None, 0);
     writer.out.trim_ascii().to_owned()
 }
 
@@ -48,13 +60,69 @@ pub(crate) fn escape(out: &mut String, text: &str) {
     }
 }
 
+/// How an element with children is declared.
+#[derive(Clone, Copy)]
+enum Declared {
+    Block(&'static Block),
+    OneOf(&'static Alternatives),
+}
+
+impl Declared {
+    /// What a child of a name is, the unit of its numbers, and how it is declared itself if it has children.
+    fn child(self, name: &str) -> Option<(&'static str, &'static str, Option<Self>)> {
+        let alternatives = match self {
+            Self::Block(block) => {
+                if let Some(field) = block.fields.iter().find(|field| field.is_called(name)) {
+                    let declared = match field.kind {
+                        Kind::Block(inner) => Some(Self::Block(inner)),
+                        Kind::OneOf(alternatives) => Some(Self::OneOf(alternatives)),
+                        _ => None,
+                    };
+                    return Some((field.doc, field.unit, declared));
+                }
+                block.alternatives.as_ref()?
+            }
+            Self::OneOf(alternatives) => alternatives,
+        };
+        let chosen = alternatives.blocks.iter().find(|block| block.is_called(name))?;
+        Some((chosen.doc, "", Some(Self::Block(chosen))))
+    }
+}
+
+/// The first sentence of a documentation, without its marks.
+fn first_sentence(doc: &str) -> String {
+    let sentence = doc.split_once(". ").map_or(doc, |(first, _)| first).trim_end_matches('.');
+    sentence.split_whitespace().collect::<Vec<_>>().join(" ").replace('`', "")
+}
+
 struct Writer<'a> {
     out: String,
     layout: &'a Layout,
+    /// What was explained before, if anything is.
+    said: Option<HashSet<&'static str>>,
 }
 
 impl Writer<'_> {
-    fn element(&mut self, element: &Element, depth: usize) {
+    fn comment(&mut self, text: &str, depth: usize) {
+        self.indent(depth);
+        // No comment can hold two dashes, nor end with one.
+        let _ = write!(self.out, "<!-- {} -->", text.replace("--", "- -"));
+        self.end_line();
+    }
+
+    /// A child of an element that is declared like this.
+    fn child(&mut self, element: &Element, parent: Option<Declared>, depth: usize) {
+        let found = parent.and_then(|parent| parent.child(&element.name));
+        if let Some((doc, unit, _)) = found
+            && self.said.as_mut().is_some_and(|said| !doc.is_empty() && said.insert(doc))
+        {
+            let unit = if unit.is_empty() { String::new() } else { format!(" ({unit})") };
+            self.comment(&(first_sentence(doc) + &unit), depth);
+        }
+        self.element(element, found.and_then(|(_, _, declared)| declared), depth);
+    }
+
+    fn element(&mut self, element: &Element, declared: Option<Declared>, depth: usize) {
         self.indent(depth);
         let _ = write!(self.out, "<{}", element.name);
         for a in &element.attributes {
@@ -81,7 +149,7 @@ impl Writer<'_> {
             self.mesh(mesh, depth + 1);
         }
         for child in &element.children {
-            self.element(child, depth + 1);
+            self.child(child, declared, depth + 1);
         }
         self.indent(depth);
         let _ = write!(self.out, "</{}>", element.name);

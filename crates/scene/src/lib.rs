@@ -4,6 +4,7 @@
 //! [`schema`] and lowers it to a [`Scene`]: plain data in arenas, immutable and shared by all threads.
 //! What is wrong goes to a sink with its place; reading never stops at the first fault.
 
+mod canonical;
 pub mod codes;
 mod contents;
 mod identity;
@@ -14,6 +15,7 @@ mod scene;
 pub mod schema;
 mod settings;
 
+pub use canonical::{LoadedCanonical, load_canonical};
 pub use contents::{Contents, LoadedContents, load_contents};
 pub use load::{LoadOptions, Loaded, LoadedDevelopment, Override, load, load_development};
 pub use scene::{

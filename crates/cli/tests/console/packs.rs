@@ -173,3 +173,43 @@ fn a_name_that_is_also_a_path_is_but_a_name() {
     let on = bench.run(&["out.pigs", "-r", "a.igi", "-haltspp", "2", "-o", "b.png"]);
     assert_eq!(on.status, Some(0), "{on:?}");
 }
+
+/// In the same folder, and in another one, from where the files are found all the same.
+#[test]
+fn a_scene_written_anew_renders_the_same() {
+    let bench = bench();
+    std::fs::create_dir(bench.path("new")).expect("a folder");
+    let plain = bench.run(&["scene.igs", "-haltspp", "4", "-t", "1", "-o", "plain.png"]);
+    assert_eq!(plain.status, Some(0), "{plain:?}");
+    let pixels = |name: &str| {
+        let bytes = std::fs::read(bench.path(name)).expect("a file");
+        indigo_formats::image::decode(name, &bytes).expect("a picture").pixels
+    };
+    for (anew, picture) in [("anew.igs", "anew.png"), ("new/anew.igs", "new/anew.png")] {
+        let written = bench.run(&["--upgrade", "scene.igs", anew]);
+        assert_eq!(written.status, Some(0), "{written:?}");
+        let text = std::fs::read_to_string(bench.path(anew)).expect("the scene");
+        assert!(
+            text.contains("<!-- ") && text.contains("<material>") && !text.contains("<include>"),
+            "{text}"
+        );
+        let ran = bench.run(&[anew, "-haltspp", "4", "-t", "1", "-o", picture]);
+        assert_eq!(ran.status, Some(0), "{ran:?}\n{text}");
+        assert!(!ran.stderr.contains("warning"), "{ran:?}");
+        assert_eq!(pixels(picture), pixels("plain.png"), "{text}");
+    }
+    let text = std::fs::read_to_string(bench.path("anew.igs")).expect("the scene");
+    assert!(text.contains("<path>parts/copy.png</path>") && text.contains("nkdata/au.nk"), "{text}");
+    // Written anew once more it stays as it is, but for its title.
+    assert_eq!(bench.run(&["--upgrade", "anew.igs", "again.igs"]).status, Some(0));
+    let body = |name: &str| {
+        let text = std::fs::read_to_string(bench.path(name)).expect("the scene");
+        text.lines().skip(2).map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(body("again.igs"), body("anew.igs"));
+    // What is wrong is told, and nothing is written.
+    bench.write("bad.igs", "<scene><sphere><radius>-1</radius></sphere></scene>");
+    let bad = bench.run(&["--upgrade", "bad.igs", "good.igs"]);
+    assert!(bad.status == Some(2) && bad.stderr.contains("bad.igs:1:"), "{bad:?}");
+    assert!(!bench.path("good.igs").exists());
+}

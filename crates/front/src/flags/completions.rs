@@ -26,6 +26,20 @@ fn names(flag: &Flag) -> impl Iterator<Item = &'static str> {
 fn bash() -> String {
     let all: Vec<String> =
         FLAGS.iter().flat_map(names).flat_map(|name| [format!("-{name}"), format!("--{name}")]).collect();
+    let choices: String = FLAGS
+        .iter()
+        .filter_map(|flag| match flag.value.map(Value::of) {
+            Some(Value::Choice(words)) => Some((flag, words.join(" "))),
+            _ => None,
+        })
+        .map(|(flag, words)| {
+            let names: Vec<String> = names(flag).flat_map(|n| [format!("-{n}"), format!("--{n}")]).collect();
+            let names = names.join("|");
+            format!(
+                "{names}) mapfile -t COMPREPLY < <(compgen -W '{words}' -- \"$word\"); return ;;\n        "
+            )
+        })
+        .collect();
     let with = |is_wanted: fn(&Value) -> bool| -> String {
         let wanted = FLAGS.iter().filter(|f| f.value.is_some_and(|value| is_wanted(&Value::of(value))));
         let names: Vec<String> =
@@ -37,8 +51,7 @@ fn bash() -> String {
          local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}}\n    \
          COMPREPLY=()\n    \
          case $before in\n        \
-         -completions|--completions) mapfile -t COMPREPLY < <(compgen -W '{}' -- \"$word\"); return ;;\n        \
-         {}) return ;;\n        \
+         {choices}{}) return ;;\n        \
          {}) compopt -o filenames; mapfile -t COMPREPLY < <(compgen -f -- \"$word\"); return ;;\n    \
          esac\n    \
          if [[ $word == -* ]]; then\n        \
@@ -49,7 +62,6 @@ fn bash() -> String {
          fi\n\
          }}\n\
          complete -F _indigo_console indigo_console\n",
-        SHELLS.join(" "),
         with(|value| *value == Value::Word),
         with(|value| *value == Value::File),
         all.join(" ")
@@ -66,7 +78,7 @@ fn zsh() -> String {
             .replace(':', "\\:");
         for name in names(flag) {
             let value = flag.value.map_or_else(String::new, |value| match Value::of(value) {
-                Value::Word if value == "SHELL" => format!(":{value}:({})", SHELLS.join(" ")),
+                Value::Choice(words) => format!(":{}:({})", flag.name, words.join(" ")),
                 Value::Word => format!(":{value}:"),
                 Value::File => format!(":{value}:_files"),
             });
@@ -84,9 +96,10 @@ fn fish() -> String {
         let doc = first_sentence(flag.doc).replace('\\', "\\\\").replace('\'', "\\'");
         for name in names(flag) {
             let value = match flag.value.map(Value::of) {
-                None => "",
-                Some(Value::Word) => " -x",
-                Some(Value::File) => " -r",
+                None => String::new(),
+                Some(Value::Word) => " -x".to_owned(),
+                Some(Value::Choice(words)) => format!(" -x -a '{}'", words.join(" ")),
+                Some(Value::File) => " -r".to_owned(),
             };
             // A long option, or a letter.
             let twice = if name.len() > 1 { format!(" -l {name}") } else { String::new() };

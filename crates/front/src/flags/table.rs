@@ -1,5 +1,7 @@
 //! The table of all options.
 
+use super::completions::SHELLS;
+
 /// What an option does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
@@ -25,6 +27,8 @@ pub enum Action {
     Pack,
     /// Unpacks a scene.
     Unpack,
+    /// Writes a scene anew.
+    Upgrade,
     /// Writes what each strategy adds.
     Strategies,
     /// Tells a sample in words.
@@ -155,6 +159,12 @@ pub static FLAGS: &[Flag] = &[
         "Unpack a packed scene into a new folder: --unpack SCENE.pigs FOLDER",
     ),
     flag(
+        "upgrade",
+        None,
+        Action::Upgrade,
+        "Write a scene, of whatever version of the format, anew: one file, in the form of the manual, with comments: --upgrade SCENE.igs OUT.igs. What has no effect is left out, and told.",
+    ),
+    flag(
         "t",
         Some("N"),
         Action::Threads,
@@ -255,17 +265,24 @@ pub static FLAGS: &[Flag] = &[
 ];
 
 /// What the value of an option is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Value {
     /// The path of a file.
     File,
+    /// One of these.
+    Choice(Vec<&'static str>),
     /// Anything else.
     Word,
 }
 
 impl Value {
     /// Of what stands for it in the help.
-    pub fn of(name: &str) -> Self {
-        if ["PATH", "FILE", "IGI", "PNG"].contains(&name) { Self::File } else { Self::Word }
+    pub fn of(name: &'static str) -> Self {
+        match name {
+            "PATH" | "FILE" | "IGI" | "PNG" => Self::File,
+            "SHELL" => Self::Choice(SHELLS.into()),
+            _ if name.contains('|') => Self::Choice(name.split('|').collect()),
+            _ => Self::Word,
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use indigo_decl::{ResolveError, Resolved, Resolver};
 use indigo_diag::Severity;
-use indigo_scene::{LoadOptions, Loaded, Scene, load};
+use indigo_scene::{LoadOptions, Loaded, Scene, load, load_canonical};
 
 /// A scene and the files beside it.
 pub struct Memory(pub Vec<(&'static str, Vec<u8>)>);
@@ -54,15 +54,28 @@ pub fn material(name: &str, kind: &str) -> String {
 
 /// A scene of these elements, beside some files.
 pub fn loaded(elements: &str) -> Loaded {
-    let scene = format!("<scene>{SETTINGS}{elements}</scene>");
-    let files = vec![
+    load("scene.igs", &LoadOptions::new(&beside(format!("<scene>{SETTINGS}{elements}</scene>"))))
+}
+
+/// The same in the form that this program writes.
+fn canonical(elements: &str) -> Loaded {
+    let scene = beside(format!("<scene>{SETTINGS}{elements}</scene>"));
+    let written =
+        load_canonical("scene.igs", &LoadOptions::new(&scene), "A scene -- anew", &|path, _| path.into());
+    let text = written.text.expect("a scene without errors");
+    let loaded = load("scene.igs", &LoadOptions::new(&beside(text.clone())));
+    assert_eq!(findings(&loaded), [], "nothing is left to be told of\n{text}");
+    loaded
+}
+
+fn beside(scene: String) -> Memory {
+    Memory(vec![
         ("scene.igs", scene.into_bytes()),
         ("a.bmp", bmp([[0, 60, 120], [200, 220, 240]])),
         ("b.bmp", bmp([[9, 9, 9], [250, 250, 250]])),
         ("sky.hdr", hdr([[10, 20, 30, 129], [200, 100, 50, 131]])),
         ("lamp.ies", include_bytes!("../../../../testscenes/ies/lambert_1000cd.ies").to_vec()),
-    ];
-    load("scene.igs", &LoadOptions::new(&Memory(files)))
+    ])
 }
 
 /// Everything that was found, as code and message.
@@ -91,12 +104,15 @@ pub fn scene_with(elements: &str, expected: &[&str]) -> Scene {
     loaded.scene.expect("a scene without errors")
 }
 
-/// Says that two spellings are the same scene, and that a third is another: so that the comparison can fail.
+/// Says that two spellings are the same scene, and that a third is another: so that the comparison can fail. The second is the
+/// same, too, when it is written anew.
 #[track_caller]
 pub fn assert_same([old, new, other]: [&str; 3]) {
+    let anew = dump(&canonical(new).scene.expect("a scene without errors"));
     let [old, new, other] = [old, new, other].map(|elements| dump(&scene_with(elements, &[])));
     assert!(old == new, "the spellings differ:\n{}", difference(&old, &new));
     assert!(old != other, "the comparison sees no difference");
+    assert!(old == anew, "written anew it differs:\n{}", difference(&old, &anew));
 }
 
 /// The radiance of the surroundings towards the zenith, at some wavelength.
