@@ -2,6 +2,7 @@
 
 mod console;
 mod films;
+mod list_files;
 mod net;
 mod packs;
 mod ptest;
@@ -71,6 +72,9 @@ fn run(arguments: &Arguments, console: &mut Console) -> u8 {
     }
     if arguments.upgrade {
         return upgrade::upgrade(arguments, console);
+    }
+    if arguments.list_files {
+        return list_files::run(arguments, console);
     }
     if let Some(path) = &arguments.make_key {
         return net::make_key(Path::new(path), console);

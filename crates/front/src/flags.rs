@@ -57,6 +57,8 @@ pub struct Arguments {
     pub unpack: bool,
     /// Only write a scene anew.
     pub upgrade: bool,
+    /// Only list the files of a scene.
+    pub list_files: bool,
     /// Path of the picture.
     pub output: Option<String>,
     /// Only show what each strategy adds, by so many samples per pixel.
@@ -187,6 +189,7 @@ fn apply(flag: &Flag, value: String, parsed: &mut Arguments) -> Result<(), Strin
         Action::Pack => parsed.pack = true,
         Action::Unpack => parsed.unpack = true,
         Action::Upgrade => parsed.upgrade = true,
+        Action::ListFiles => parsed.list_files = true,
         Action::Strategies => {
             let passes = value.parse().ok().filter(|n: &u32| *n > 0);
             parsed.strategies =

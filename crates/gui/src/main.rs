@@ -65,6 +65,7 @@ fn only_of_console(arguments: &Arguments) -> Option<&'static str> {
         "pack",
         "unpack",
         "upgrade",
+        "list-files",
         "make-key",
         "dumpmetadata",
         "ptest",

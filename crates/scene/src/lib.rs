@@ -10,6 +10,7 @@ mod contents;
 mod identity;
 mod load;
 mod lower;
+mod needs;
 mod probe;
 mod scene;
 pub mod schema;
@@ -18,6 +19,7 @@ mod settings;
 pub use canonical::{LoadedCanonical, load_canonical};
 pub use contents::{Contents, LoadedContents, load_contents};
 pub use load::{LoadOptions, Loaded, LoadedDevelopment, Override, load, load_development};
+pub use needs::{LoadedNeeds, Need, load_needs};
 pub use scene::{
     DIFFRACTION_OF_RAYS, Development, FOREGROUND_ALPHA, FilmSettings, Identity, MetropolisSettings, Names,
     OutputSettings, Scene, SceneStats, TransportSettings,

@@ -213,3 +213,28 @@ fn a_scene_written_anew_renders_the_same() {
     assert!(bad.status == Some(2) && bad.stderr.contains("bad.igs:1:"), "{bad:?}");
     assert!(!bench.path("good.igs").exists());
 }
+
+#[test]
+fn all_files_of_a_scene_are_listed_and_what_is_missing_is_told() {
+    let bench = bench();
+    let ran = bench.run(&["--list-files", "scene.igs"]);
+    assert_eq!(ran.status, Some(0), "{ran:?}");
+    assert_eq!(ran.stdout.lines().count(), 5, "{}", ran.stdout);
+    let size = std::fs::metadata(CHECKER).expect("a test scene's texture").len();
+    for end in ["wood.png", "copy.png"] {
+        let line = ran.stdout.lines().find(|line| line.ends_with(end)).expect("a texture");
+        assert!(line.trim_start().starts_with(&format!("{size} ")), "{line}");
+    }
+    for end in ["scene.igs", "metals.igs", "au.nk"] {
+        assert!(ran.stdout.lines().any(|line| line.ends_with(end)), "{end}: {}", ran.stdout);
+    }
+    std::fs::remove_file(bench.path("parts/copy.png")).expect("a texture");
+    let ran = bench.run(&["--list-files", "scene.igs"]);
+    assert_eq!(ran.status, Some(2), "{ran:?}");
+    let line = ran.stdout.lines().find(|line| line.contains("missing")).expect("what is missing");
+    assert!(line.contains("copy.png, named in") && line.contains("metals.igs:2:"), "{line}");
+    assert!(ran.stderr.contains("1 file missing"), "{}", ran.stderr);
+    let ran = bench.run(&["--list-files", "--json", "scene.igs"]);
+    assert_eq!(ran.stdout.lines().filter(|line| line.contains("\"bytes\":")).count(), 4, "{}", ran.stdout);
+    assert_eq!(ran.stdout.lines().filter(|line| line.contains("\"missing\":")).count(), 1, "{}", ran.stdout);
+}

@@ -29,6 +29,8 @@ pub enum Action {
     Unpack,
     /// Writes a scene anew.
     Upgrade,
+    /// Lists the files that a scene needs.
+    ListFiles,
     /// Writes what each strategy adds.
     Strategies,
     /// Tells a sample in words.
@@ -163,6 +165,12 @@ pub static FLAGS: &[Flag] = &[
         None,
         Action::Upgrade,
         "Write a scene, of whatever version of the format, anew: one file, in the form of the manual, with comments: --upgrade SCENE.igs OUT.igs. What has no effect is left out, and told.",
+    ),
+    flag(
+        "list-files",
+        None,
+        Action::ListFiles,
+        "List every file that a scene names, one a line: its size in bytes and where it was found, or that it is missing and where it is named. The exit status is 2 if one is missing.",
     ),
     flag(
         "t",

@@ -44,6 +44,7 @@ static TASKS: &[Task] = &[
     task("pack", [2, 2], "a scene and a file to write", "--pack SCENE.igs OUT.pigs", &["json"]),
     task("unpack", [2, 2], "a packed scene and a folder to make", "--unpack SCENE.pigs FOLDER", &[]),
     task("upgrade", [2, 2], "a scene and a file to write", "--upgrade SCENE.igs OUT.igs", &["json"]),
+    task("list-files", [1, 1], "a scene", "--list-files SCENE.igs", &["json"]),
     task("make-key", [0, 0], "no file but its own", "--make-key FILE", &[]),
     task("dumpmetadata", [0, 0], "no file but its own", "--dumpmetadata PICTURE.png", &[]),
     task("ptest", [0, 1], "a scene", "--ptest SCENE.igs", &["haltspp", "t", "seed", "json"]),

@@ -100,6 +100,7 @@ fn every_option_has_a_part_in_what_is_done() {
         (&["a.igs", "-strategies", "3", "-o", "s.png"], &["-haltspp", "-halt", "-t"]),
         (&["-pack", "a.igs", "a.pigs"], &["-t", "-haltspp"]),
         (&["-unpack", "a.pigs", "f"], &["-t", "-seed"]),
+        (&["-list-files", "a.igs"], &["-t", "-o"]),
         (&["-make-key", "k"], &["-t", "-key-file"]),
         (&["-dumpmetadata", "a.png"], &["-t"]),
     ] {
