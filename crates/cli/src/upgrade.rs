@@ -2,16 +2,17 @@
 
 use crate::console::Console;
 use crate::{refuse, tell_findings};
-use indigo_front::VERSION;
 use indigo_front::flags::Arguments;
 use indigo_front::load::with_load_options;
 use indigo_front::messages::Messages as _;
 use indigo_front::packs::is_pack;
+use indigo_front::prepare::overwrites;
 use indigo_front::status::{BAD_INPUT, FAILED, RENDERED};
+use indigo_front::{VERSION, paths};
 use indigo_render::atomic::write_atomically;
 use indigo_scene::load_canonical;
 use std::io::Write as _;
-use std::path::{Path, PathBuf, absolute};
+use std::path::{Path, absolute};
 
 /// Writes a scene anew; the exit status.
 pub fn upgrade(arguments: &Arguments, console: &mut Console) -> u8 {
@@ -23,17 +24,27 @@ pub fn upgrade(arguments: &Arguments, console: &mut Console) -> u8 {
         return refuse(&format!("{output}: a name that ends in .igs is expected"), console);
     }
     let title = format!("{scene}, written anew by {VERSION}");
-    let rewrite = |written: &str, from: &str| seen_from(written, Path::new(from), Path::new(output));
+    let rewrite = |written: &str, found: &str| seen_from(written, Path::new(found), Path::new(output));
     let loaded =
         with_load_options(scene, arguments, |options| load_canonical(scene, options, &title, &rewrite));
-    let loaded = match loaded {
-        Ok((loaded, _)) => loaded,
+    let (loaded, read) = match loaded {
+        Ok(loaded) => loaded,
         Err(message) => return refuse(&message, console),
     };
+    if overwrites(std::iter::once(output.into()), &read).is_some() {
+        return refuse(
+            &format!("the scene reads {output}, which would be overwritten: give another name"),
+            console,
+        );
+    }
     if !tell_findings(scene, &loaded.sink, &loaded.sources, arguments, console) {
         return FAILED;
     }
     let Some(text) = loaded.text else { return BAD_INPUT };
+    if let Some(path) = loaded.unreachable.first() {
+        let what = "is in a packed file, where no path leads: unpack that, and include what is in it";
+        return refuse(&format!("{scene}: {path} {what}"), console);
+    }
     match write_atomically(Path::new(output), |file| file.write_all(text.as_bytes())) {
         Ok(()) => {
             console.say(&format!("Saved {output}"));
@@ -46,15 +57,19 @@ pub fn upgrade(arguments: &Arguments, console: &mut Console) -> u8 {
     }
 }
 
-/// A path as it is written in one file, for another file: the same where that lies beside, or where it is found elsewhere
-/// than beside the first.
-fn seen_from(written: &str, from: &Path, output: &Path) -> String {
-    let place = |file: &Path| absolute(file).ok().and_then(|file| file.parent().map(Path::to_path_buf));
-    let (Some(here), Some(there)) = (place(from), place(output)) else { return written.to_owned() };
-    let found: PathBuf = here.join(written.replace('\\', "/"));
-    if here == there || !found.is_file() {
-        return written.to_owned();
+/// The path of a file as another one can write it: the same where it leads to what comes with the program, else from where
+/// that other file is. `None` for what is no file of its own.
+fn seen_from(written: &str, found: &Path, output: &Path) -> Option<String> {
+    if !found.is_file() {
+        return None;
     }
-    let shown = found.strip_prefix(&there).unwrap_or(&found);
-    shown.to_string_lossy().replace('\\', "/")
+    let same =
+        |path: &Path| path.canonicalize().ok().is_some_and(|path| found.canonicalize().ok() == Some(path));
+    let name = written.replace('\\', "/");
+    if paths::resource_directories().iter().any(|folder| same(&folder.join(&name))) {
+        return Some(written.to_owned());
+    }
+    let (found, output) = (absolute(found).ok()?, absolute(output).ok()?);
+    let shown = output.parent().and_then(|folder| found.strip_prefix(folder).ok()).unwrap_or(&found);
+    Some(shown.to_string_lossy().replace('\\', "/"))
 }

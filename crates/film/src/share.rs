@@ -7,7 +7,7 @@ const MOST_SAMPLES: f64 = (1u64 << 53) as f64;
 
 /// Whether a number is one that counting by ones gives.
 pub fn is_count(n: f64) -> bool {
-    (n.trunc() == n) & (0.0 <= n) & (n <= MOST_SAMPLES)
+    n.trunc() == n && (0.0..=MOST_SAMPLES).contains(&n)
 }
 
 /// What a layer counts.

@@ -105,8 +105,15 @@ struct Writer<'a> {
 impl Writer<'_> {
     fn comment(&mut self, text: &str, depth: usize) {
         self.indent(depth);
-        // No comment can hold two dashes, nor end with one.
-        let _ = write!(self.out, "<!-- {} -->", text.replace("--", "- -"));
+        self.out.push_str("<!-- ");
+        for c in text.chars().filter(|c| *c >= ' ') {
+            // No comment can hold two dashes side by side.
+            if c == '-' && self.out.ends_with('-') {
+                self.out.push(' ');
+            }
+            self.out.push(c);
+        }
+        self.out.push_str(" -->");
         self.end_line();
     }
 
@@ -197,9 +204,32 @@ impl Writer<'_> {
             self.out.push_str("/>");
             self.end_line();
         }
+        self.unordered_names(mesh, depth);
         let triangles: Vec<(&[u32; 3], &u32)> = data.triangles.iter().zip(&data.triangle_materials).collect();
         for run in triangles.chunk_by(|a, b| a.1 == b.1) {
             self.triangle_set(mesh, run, depth);
+        }
+    }
+
+    /// Sets without triangles for all materials, where those that have some would number them otherwise: models may
+    /// name materials by these numbers.
+    fn unordered_names(&mut self, mesh: &EmbeddedMesh, depth: usize) {
+        let mut next = 0;
+        for &material in &mesh.data.triangle_materials {
+            if material > next {
+                break;
+            }
+            next = next.max(material + 1);
+        }
+        if next as usize == mesh.data.material_names.len() {
+            return;
+        }
+        for name in &mesh.data.material_names {
+            self.indent(depth);
+            self.out.push_str("<triangle_set><material_name>");
+            escape(&mut self.out, name);
+            self.out.push_str("</material_name></triangle_set>");
+            self.end_line();
         }
     }
 

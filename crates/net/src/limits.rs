@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 /// The protocol's number: peers of another do not understand each other.
-pub const PROTOCOL: u32 = 1;
+pub const PROTOCOL: u32 = 2;
 /// The port of the manual.
 pub const PORT: u16 = 7777;
 
@@ -47,8 +47,9 @@ pub const UPLOAD: Duration = Duration::from_mins(30);
 /// Time between a slave's reports.
 pub const REPORTS: Duration = Duration::from_secs(2);
 
-/// The most bytes of a parcel of a film: what its sums take in single precision, and something more, since what cannot
-/// be compressed grows by half a percent, and for the record.
+/// The most bytes of a parcel of a film: of 40 bytes of a pixel of the master's film, sums take half in single precision and
+/// counts what they take, 24 in all; and something more, since what cannot be compressed grows by half a percent, and for the
+/// record.
 pub fn parcel_bytes(film_bytes: u64) -> u64 {
-    film_bytes / 2 + film_bytes / 100 + (1 << 20)
+    film_bytes / 5 * 3 + film_bytes / 100 + (1 << 20)
 }

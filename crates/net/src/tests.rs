@@ -227,7 +227,7 @@ fn other_programs_are_told_why_they_cannot_join() {
         "{status}"
     );
     bench.assert_refused("Indigo of tomorrow");
-    assert_eq!(refused(|request| request.protocol = 2).code(), Code::FailedPrecondition);
+    assert_eq!(refused(|request| request.protocol = PROTOCOL - 1).code(), Code::FailedPrecondition);
     assert_eq!(refused(|request| request.slave = Bytes::from_static(b"short")).code(), Code::InvalidArgument);
     // Two slaves with one seed would send the same samples.
     let _first = bench.join();

@@ -2,14 +2,18 @@
 
 use crate::load::{LoadOptions, load};
 use crate::schema::SCENE;
-use indigo_decl::bind;
-use indigo_diag::{Sink, SourceMap};
+use indigo_decl::{Element, bind};
+use indigo_diag::{Sink, SourceMap, Span};
 use indigo_igs::{read_scene, write_explained};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
 
 /// A scene as far as it could be written in another form.
 pub struct LoadedCanonical {
     /// Its text, if nothing was wrong.
     pub text: Option<String>,
+    /// Paths that cannot be written: see [`load_canonical`].
+    pub unreachable: Vec<String>,
     /// All scene files that were read.
     pub sources: SourceMap,
     /// Everything that was found: what has no effect is not in the text.
@@ -17,25 +21,60 @@ pub struct LoadedCanonical {
 }
 
 /// Reads a scene with all that it includes, whatever version of the format it is written in, and writes it anew as one file.
-/// `rewrite` gives what stands in place of a path, of the file in which it was written. The scene is checked before: what
-/// has errors has no text.
+/// `rewrite` gives what stands in place of a path, of which it gets the text and where the file was found; `None` where no
+/// path leads there. The scene is checked before: what has errors has no text.
 pub fn load_canonical(
     path: &str,
     options: &LoadOptions,
     title: &str,
-    rewrite: &dyn Fn(&str, &str) -> String,
+    rewrite: &dyn Fn(&str, &str) -> Option<String>,
 ) -> LoadedCanonical {
     let checked = load(path, &LoadOptions { check_only: true, ..*options });
+    let nothing = |sources, sink| LoadedCanonical { text: None, unreachable: vec![], sources, sink };
     if checked.sink.has_errors() {
-        return LoadedCanonical { text: None, sources: checked.sources, sink: checked.sink };
+        return nothing(checked.sources, checked.sink);
     }
     let (mut sources, mut again) = (SourceMap::default(), Sink::new());
     let root = read_scene(path, options.resolver, &mut sources, &mut again, &options.limits);
-    let text = root.map(|root| {
-        let node = bind(root, &SCENE, &mut again);
-        let element = node.to_element(&|written, span| rewrite(written, sources.name(span.source)));
-        write_explained(&element, &SCENE, title)
-    });
+    let Some(node) = root.map(|root| bind(root, &SCENE, &mut again)).filter(|_| !again.has_errors()) else {
+        // The files have changed meanwhile.
+        return nothing(sources, again);
+    };
+    let unreachable = RefCell::new(vec![]);
+    let known = RefCell::new(BTreeMap::new());
+    let find = |written: &str, span: Span| {
+        // What is nowhere is in use nowhere, or it would have been an error.
+        let Ok(found) = options.resolver.read(written, sources.name(span.source)) else {
+            return written.to_owned();
+        };
+        rewrite(written, &found.path).unwrap_or_else(|| {
+            unreachable.borrow_mut().push(written.to_owned());
+            written.to_owned()
+        })
+    };
+    // Not read again for each of the many materials that may use it.
+    let find_once = |written: &str, span: Span| -> String {
+        let key = (written.to_owned(), span.source);
+        known.borrow_mut().entry(key).or_insert_with(|| find(written, span)).clone()
+    };
+    let mut element = node.to_element(&find_once);
+    by_place(&mut element.children, "medium");
+    let text = Some(write_explained(&element, &SCENE, title));
     // What the first reading has found, with the lowering's share.
-    LoadedCanonical { text, sources: checked.sources, sink: checked.sink }
+    LoadedCanonical {
+        text,
+        unreachable: unreachable.into_inner(),
+        sources: checked.sources,
+        sink: checked.sink,
+    }
+}
+
+/// Orders elements of a name by file and place: of media of one precedence the one that comes later wins.
+fn by_place(elements: &mut [Element], name: &str) {
+    let at: Vec<usize> = (0..elements.len()).filter(|&i| *elements[i].name == *name).collect();
+    let mut sorted: Vec<Element> = at.iter().map(|&i| elements[i].clone()).collect();
+    sorted.sort_by_key(|element| (element.span.source, element.span.start));
+    for (i, element) in at.into_iter().zip(sorted) {
+        elements[i] = element;
+    }
 }

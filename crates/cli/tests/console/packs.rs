@@ -207,6 +207,18 @@ fn a_scene_written_anew_renders_the_same() {
         text.lines().skip(2).map(str::to_owned).collect::<Vec<_>>()
     };
     assert_eq!(body("again.igs"), body("anew.igs"));
+    // What lies beside the scene comes before what lies beside the file that names it.
+    std::fs::copy(CHECKER, bench.path("copy.png")).expect("a test scene's texture");
+    assert_eq!(bench.run(&["--upgrade", "scene.igs", "other.igs"]).status, Some(0));
+    let text = std::fs::read_to_string(bench.path("other.igs")).expect("the scene");
+    assert!(text.contains("<path>copy.png</path>"), "{text}");
+    // No file that was read is written over.
+    for read in ["scene.igs", "parts/metals.igs"] {
+        let before = std::fs::read(bench.path(read)).expect("the scene");
+        let ran = bench.run(&["--upgrade", "scene.igs", read]);
+        assert!(ran.status == Some(2) && ran.stderr.contains("overwritten"), "{ran:?}");
+        assert_eq!(std::fs::read(bench.path(read)).expect("the scene"), before);
+    }
     // What is wrong is told, and nothing is written.
     bench.write("bad.igs", "<scene><sphere><radius>-1</radius></sphere></scene>");
     let bad = bench.run(&["--upgrade", "bad.igs", "good.igs"]);

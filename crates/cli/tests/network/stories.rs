@@ -148,7 +148,9 @@ fn masters_are_found() {
     farm.start_master("m", &[]);
     let mut slave = farm.searching_slave(3);
     let said = "slave3.json";
+    let start = std::time::Instant::now();
     loop {
+        assert!(start.elapsed() < super::workbench::PATIENCE, "{}", farm.text(said));
         let text = farm.text(said);
         if text.contains("\"event\":\"sent\"") {
             break;

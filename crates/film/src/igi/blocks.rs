@@ -232,9 +232,9 @@ fn unpack(piece: &[u8], room: &mut [u8]) -> Result<(), IgiError> {
 
 /// Whether numbers are finite by their two most significant bytes, the last but one of which has these bits of the exponent.
 fn check_finite(next: &[u8], last: &[u8], low: u8) -> Result<(), IgiError> {
-    let finite = |(next, last): (&u8, &u8)| (last & 0x7f != 0x7f) | (next & low != low);
+    let bad = |(next, last): (&u8, &u8)| u8::from(last & 0x7f == 0x7f) & u8::from(next & low == low);
     // Without an early end, so that it is done for many at a time.
-    if next.iter().zip(last).fold(true, |all, pair| all & finite(pair)) {
+    if next.iter().zip(last).fold(0, |any, pair| any | bad(pair)) == 0 {
         Ok(())
     } else {
         Err(IgiError::Malformed("a sum is not finite"))

@@ -17,7 +17,11 @@
 //!
 //! A *parcel* is a film on its way from a network slave to its master, and no file: the eight bytes of `PARCEL_MARK`, u32
 //! `SECTION_VERSION`, u32 width, height (internal pixels) and super-sampling factor, then the film section, with sums as
-//! f32. It has no hash: the connection by which it travels proves each of its bytes.
+//! f32. It has no hash: the encrypted connection by which it travels proves each of its bytes, and without a key it does not
+//! leave the machine. Its numbers stand in blocks of 65,536, the last one shorter. A block of sums is of 16 pieces: of each of X,
+//! Y, Z and alpha the lowest bytes of all pixels, then the next, to the highest. A piece is a u32, its length in bytes, and then as
+//! many: where that is the number of pixels, the bytes as they are, else those compressed by LZ4. A block of counts is one piece of
+//! f64, ordered in the same way, always compressed.
 //!
 //! Reading never panics. Its memory is bounded by the file's size: the image alone needs 12 bytes per
 //! internal pixel, and no file has more than `MAX_LAYERS` layers.

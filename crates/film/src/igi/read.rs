@@ -349,7 +349,7 @@ impl<'a> PackedLayer<'a> {
 
 pub(super) fn check_counts(counts: &[f64]) -> Result<(), IgiError> {
     // Without an early end, so that it is done for many at a time.
-    if counts.iter().fold(false, |any, n| any | (*n < 0.0)) {
+    if counts.iter().fold(0, |any, n| any | u8::from(*n < 0.0)) > 0 {
         return Err(IgiError::Malformed("a pixel has a negative number of samples"));
     }
     Ok(())

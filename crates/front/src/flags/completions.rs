@@ -26,20 +26,18 @@ fn names(flag: &Flag) -> impl Iterator<Item = &'static str> {
 fn bash() -> String {
     let all: Vec<String> =
         FLAGS.iter().flat_map(names).flat_map(|name| [format!("-{name}"), format!("--{name}")]).collect();
-    let choices: String = FLAGS
-        .iter()
-        .filter_map(|flag| match flag.value.map(Value::of) {
-            Some(Value::Choice(words)) => Some((flag, words.join(" "))),
-            _ => None,
-        })
-        .map(|(flag, words)| {
-            let names: Vec<String> = names(flag).flat_map(|n| [format!("-{n}"), format!("--{n}")]).collect();
-            let names = names.join("|");
-            format!(
-                "{names}) mapfile -t COMPREPLY < <(compgen -W '{words}' -- \"$word\"); return ;;\n        "
-            )
-        })
-        .collect();
+    let mut choices = String::new();
+    for flag in FLAGS {
+        let Some(Value::Choice(words)) = flag.value.map(Value::of) else { continue };
+        let names: Vec<String> = names(flag).flat_map(|n| [format!("-{n}"), format!("--{n}")]).collect();
+        // Writing to a string cannot fail.
+        let _ = write!(
+            choices,
+            "{}) mapfile -t COMPREPLY < <(compgen -W '{}' -- \"$word\"); return ;;\n        ",
+            names.join("|"),
+            words.join(" ")
+        );
+    }
     let with = |is_wanted: fn(&Value) -> bool| -> String {
         let wanted = FLAGS.iter().filter(|f| f.value.is_some_and(|value| is_wanted(&Value::of(value))));
         let names: Vec<String> =

@@ -29,9 +29,17 @@ impl Rooms {
     /// None while there is a master.
     pub async fn take(&self, bytes: u64) -> Result<Room, AcquireError> {
         // Not more than there is, as the length is within the limit.
-        let units = u32::try_from(bytes.div_ceil(ROOM)).unwrap_or(u32::MAX);
+        let units = u32::try_from(bytes.div_ceil(ROOM)).unwrap_or(u32::MAX).max(1);
         let permit = Arc::clone(&self.free).acquire_many_owned(units).await?;
-        let mut memory = lock(&self.kept).pop().unwrap_or_default();
+        let mut kept = lock(&self.kept);
+        let mut memory = kept.pop().unwrap_or_default();
+        // What is in use and what is kept are together no more than there is room for.
+        memory.shrink_to(bytes as usize);
+        let free = self.free.available_permits() as u64 * ROOM;
+        while kept.iter().map(|memory| memory.capacity() as u64).sum::<u64>() > free {
+            kept.pop();
+        }
+        drop(kept);
         memory.reserve_exact(bytes as usize);
         Ok(Room { memory, kept: Arc::clone(&self.kept), _permit: permit })
     }
