@@ -55,7 +55,8 @@ const PLAIN: &[(Modifiers, Key, &str, Effect)] = &[
 pub fn keys(context: &Context, state: &mut State) {
     let is_typing = context.text_edit_focused();
     for (modifiers, key, _, effect) in COMMANDS.iter().chain(PLAIN.iter().filter(|_| !is_typing)) {
-        if context.input_mut(|input| input.consume_key(*modifiers, *key)) {
+        // On a slow machine a key may have been pressed twice since the last frame.
+        for _ in 0..context.input_mut(|input| input.count_and_consume_key(*modifiers, *key)) {
             effect(state);
         }
     }
