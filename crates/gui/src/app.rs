@@ -298,6 +298,8 @@ impl App {
         if matches!(self.state.phase, Phase::Rendering | Phase::Paused) {
             context.send_viewport_cmd(ViewportCommand::CancelClose);
             self.state.asks_to_close = true;
+            // The question has its part of a frame behind it already.
+            context.request_repaint();
         }
     }
 }

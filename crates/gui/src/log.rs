@@ -152,7 +152,7 @@ mod tests {
     #[test]
     fn a_finding_leads_to_its_line() {
         let mut sources = SourceMap::default();
-        let text: String = (1..=40).map(|i| format!("line {i}\n")).collect();
+        let text = (1..=40).map(|i| format!("line {i}")).collect::<Vec<_>>().join("\n");
         let at = text.find("line 30").unwrap();
         let id = sources.add("a.igs", text.into_bytes().into(), None).unwrap();
         let mut sink = Sink::new();

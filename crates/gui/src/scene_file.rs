@@ -188,7 +188,7 @@ mod tests {
         let path = scene("settings");
         let read = || SceneFile::read(path.to_str().unwrap()).unwrap();
         let text = || std::fs::read_to_string(&path).unwrap();
-        assert_eq!(read().save_controls(&controls()).unwrap(), [path.clone()]);
+        assert_eq!(read().save_controls(&controls()).unwrap(), std::slice::from_ref(&path));
         assert_eq!(
             text(),
             SCENE

@@ -215,7 +215,7 @@ mod tests {
         std::thread::scope(|scope| {
             scope.spawn(|| desk.work(&move || _ = woken.send(())));
             let wait = || {
-                waking.recv_timeout(Duration::from_secs(60)).expect("a picture");
+                waking.recv_timeout(Duration::from_mins(1)).expect("a picture");
                 desk.take()
             };
             desk.set_settings(settings(0.25));

@@ -5,7 +5,7 @@ use crate::engine::Command;
 use crate::state::{State, Tool};
 use crate::{theme, words};
 use eframe::egui::{
-    Color32, CursorIcon, Painter, PointerButton, Rect, Response, Role, Sense, Stroke, StrokeKind,
+    Color32, CursorIcon, Painter, PointerButton, Rect, Response, RichText, Role, Sense, Stroke, StrokeKind,
     TextureHandle, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
@@ -175,7 +175,7 @@ fn inspector(ui: &mut Ui, state: &State) {
         let mut cell = |width: f32, text: String| {
             ui.allocate_ui(vec2(width, theme::LINE), |ui| {
                 ui.set_min_width(width);
-                ui.monospace(text);
+                ui.label(RichText::new(text).monospace().small());
             });
         };
         let pixel = state.hovered.zip(state.picture.as_ref());
@@ -184,14 +184,14 @@ fn inspector(ui: &mut Ui, state: &State) {
             return;
         };
         let index = y as usize * picture.size[0] + x as usize;
-        cell(96.0, format!("{x}, {y}"));
+        cell(64.0, format!("{x}, {y}"));
         if let Some(shown) = picture.image.pixels.get(index) {
-            cell(140.0, format!("RGB {:>3} {:>3} {:>3}", shown.r(), shown.g(), shown.b()));
+            cell(100.0, format!("RGB {:>3} {:>3} {:>3}", shown.r(), shown.g(), shown.b()));
         }
         if let Some([x, y, z, _]) = picture.light.pixels.get(index) {
-            cell(230.0, format!("XYZ {x:>8.3} {y:>8.3} {z:>8.3}"));
-            cell(140.0, words::luminance(*y));
-            cell(150.0, words::exposure(f64::from(*y) * picture.lux_seconds_per_nit));
+            cell(190.0, format!("XYZ {x:>8.3} {y:>8.3} {z:>8.3}"));
+            cell(100.0, words::luminance(*y));
+            cell(110.0, words::exposure(f64::from(*y) * picture.lux_seconds_per_nit));
         }
     });
 }

@@ -24,8 +24,14 @@ pub fn status(ui: &mut Ui, state: &State) {
         cell(ui, 120.0, words::phase(&state.phase));
         let progress = state.progress.as_ref();
         let fraction = progress.and_then(|p| p.fraction);
-        let text = fraction.map(|f| format!("{:.0} %", 100.0 * f)).unwrap_or_default();
-        ui.add(ProgressBar::new(fraction.unwrap_or(0.0) as f32).desired_width(140.0).text(text));
+        match fraction {
+            Some(part) => {
+                let text = format!("{:.0} %", 100.0 * part);
+                ui.add(ProgressBar::new(part as f32).desired_width(140.0).text(text));
+            }
+            // Without a halting condition there is no end to be near to.
+            None => ui.add_space(140.0),
+        }
         let Some(p) = progress else { return };
         cell(ui, 110.0, words::samples_per_pixel(p.samples_per_pixel));
         cell(ui, 120.0, words::samples_per_second(&scaled(p.samples_per_second)));

@@ -218,9 +218,7 @@ mod tests {
         let settings = PictureSettings::plain(tone_mapping, exposure);
         state.controls = Some(Controls::of(&settings));
         state.base = Some(settings);
-        Harness::builder()
-            .with_size(vec2(theme::SIDE, 900.0))
-            .build_ui_state(|ui, state| tone(ui, state), state)
+        Harness::builder().with_size(vec2(theme::SIDE, 900.0)).build_ui_state(tone, state)
     }
 
     #[test]

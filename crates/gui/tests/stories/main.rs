@@ -101,14 +101,21 @@ fn a_picture_grows_rests_is_saved_and_seen_again() {
     screen.press(&[keys::CONTROL, u32::from(b's')]);
     let png = folder.join("box.png");
     screen.wait_for("saved picture", |_| std::fs::metadata(&png).is_ok_and(|m| m.len() > 0).then_some(()));
-    // A render is not lost by closing: the window asks. The first answer, saving, is next to Tab.
+    // A render is not lost by closing: the window asks, and the picture behind the question is darker.
     screen.ask_to_close();
-    std::thread::sleep(Duration::from_secs(1));
-    assert_eq!(screen.has_ended_well(), None, "the window must ask before it closes");
+    screen.wait_for("question", |screen| (screen.see_picture().pixels != last).then_some(()));
+    std::thread::sleep(Duration::from_millis(500));
     screen.see().keep("closing");
     screen.press(&[keys::ESCAPE]);
-    std::thread::sleep(Duration::from_millis(500));
-    assert_eq!(screen.has_ended_well(), None, "it was told to stay");
+    screen.wait_for("the picture again", |screen| (screen.see_picture().pixels == last).then_some(()));
+    // The first answer is to save.
+    std::fs::remove_file(&png).expect("the picture is there");
+    screen.ask_to_close();
+    screen.wait_for("question", |screen| (screen.see_picture().pixels != last).then_some(()));
+    screen.press(&[keys::TAB]);
+    screen.press(&[keys::SPACE]);
+    assert!(screen.wait_for_end());
+    assert!(png.exists(), "it was saved");
     drop(screen);
     let mut again = Screen::start(&folder, LARGE, &[&scene, "-o", "again.png", "-haltspp", "1"]);
     wait_for_picture(&mut again);

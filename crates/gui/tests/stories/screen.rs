@@ -14,7 +14,7 @@ use x11rb::protocol::xtest::ConnectionExt as _;
 use x11rb::rust_connection::RustConnection;
 
 /// Longer than anything takes here, even on a busy machine without a graphics card.
-const PATIENCE: Duration = Duration::from_secs(120);
+const PATIENCE: Duration = Duration::from_mins(2);
 /// Windows of other tests would lie on top.
 static SCREEN: Mutex<()> = Mutex::new(());
 
