@@ -43,8 +43,13 @@ fn write(folder: &Path, name: &str, text: &str) -> String {
     path.display().to_string()
 }
 
-fn testscene(name: &str) -> String {
-    format!("{}/../../testscenes/{name}", env!("CARGO_MANIFEST_DIR"))
+/// A box with noise in its shadows, small enough to be rendered while somebody waits, also on a busy machine.
+fn noisy_box(folder: &Path) -> String {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../testscenes/cornell_box.igs");
+    let text = std::fs::read_to_string(path).expect("the scene is there");
+    let small = text.replace(">512</width>", ">160</width>").replace(">512</height>", ">160</height>");
+    assert_ne!(small, text, "the scene has another size than it had");
+    write(folder, "box.igs", &small)
 }
 
 /// Waits until a picture is seen: something other than the grey around it, or the black before the window is drawn and
@@ -83,7 +88,7 @@ fn a_step_of_exposure_doubles_the_light_and_reset_takes_it_back() {
 #[test]
 fn a_picture_grows_rests_is_saved_and_seen_again() {
     let folder = scratch("growing");
-    let scene = testscene("cornell_box.igs");
+    let scene = noisy_box(&folder);
     let mut screen = Screen::start(&folder, LARGE, &[&scene, "-o", "box.png", "-t", "1"]);
     wait_for_picture(&mut screen);
     let first = screen.see_picture().pixels;
@@ -146,7 +151,7 @@ fn a_film_is_looked_at_again() {
 fn both_themes_at_two_sizes() {
     for (size, name) in [(LARGE, "large"), (SMALL, "small")] {
         let folder = scratch(name);
-        let scene = testscene("cornell_box.igs");
+        let scene = noisy_box(&folder);
         let mut screen = Screen::start(&folder, size, &[&scene, "-o", "box.png", "-haltspp", "32"]);
         wait_for_picture(&mut screen);
         screen.wait_for("the end", |_| folder.join("box.png").exists().then_some(()));
