@@ -77,7 +77,14 @@ fn one_file_that_is_asked_for_is_the_same_as_among_all() {
         let alone = directory.join("folder").join("alone");
         assert_eq!(job.save_as(&saved, what, &alone).expect("it is written"), alone);
         let bytes = |path: &PathBuf| std::fs::read(path).expect("the file is there");
-        assert!(bytes(&alone) == bytes(&among_all), "{what:?}");
+        let (alone, among_all) = (bytes(&alone), bytes(&among_all));
+        if what == OneFile::Luminances {
+            // What an EXR says of itself is in no fixed order.
+            let pixels = |bytes: &[u8]| decode("x.exr", bytes).expect("a picture").pixels;
+            assert!(pixels(&alone) == pixels(&among_all), "{what:?}");
+        } else {
+            assert!(alone == among_all, "{what:?}");
+        }
     }
     std::fs::remove_dir_all(directory).expect("the test's own files");
 }
