@@ -175,7 +175,7 @@ fn inspector(ui: &mut Ui, state: &State) {
         let mut cell = |width: f32, text: String| {
             ui.allocate_ui(vec2(width, theme::LINE), |ui| {
                 ui.set_min_width(width);
-                ui.label(RichText::new(text).monospace().small());
+                ui.label(RichText::new(text).monospace().size(11.0));
             });
         };
         let pixel = state.hovered.zip(state.picture.as_ref());
@@ -189,7 +189,7 @@ fn inspector(ui: &mut Ui, state: &State) {
             cell(100.0, format!("RGB {:>3} {:>3} {:>3}", shown.r(), shown.g(), shown.b()));
         }
         if let Some([x, y, z, _]) = picture.light.pixels.get(index) {
-            cell(190.0, format!("XYZ {x:>8.3} {y:>8.3} {z:>8.3}"));
+            cell(200.0, format!("XYZ {x:>8.3} {y:>8.3} {z:>8.3}"));
             cell(100.0, words::luminance(*y));
             cell(110.0, words::exposure(f64::from(*y) * picture.lux_seconds_per_nit));
         }

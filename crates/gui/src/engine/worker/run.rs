@@ -24,6 +24,9 @@ const FIRST_PICTURE: Duration = Duration::from_secs(1);
 /// Renewing the picture may take this part of the time at most, so that rendering takes no more than some per cent longer.
 const PART_FOR_PICTURES: u32 = 40;
 
+/// No picture is waited for longer than so many times the setting `display_period`.
+const LONGEST_WAIT: u32 = 3;
+
 /// A session with what belongs to it.
 pub struct Run {
     session: Session,
@@ -149,7 +152,9 @@ impl Run {
         let period = self.prepared.scene.output.display_period;
         let period = Duration::try_from_secs_f64(period).unwrap_or(Duration::MAX);
         let growing = FIRST_PICTURE.saturating_mul(1 << self.pictures.min(16));
-        period.min(growing).max(self.cost.saturating_mul(PART_FOR_PICTURES))
+        // Developing takes long on a machine that is busy with other things, too: pictures come all the same.
+        let sparing = self.cost.saturating_mul(PART_FOR_PICTURES).min(period.saturating_mul(LONGEST_WAIT));
+        period.min(growing).max(sparing)
     }
 
     fn show(&mut self, desk: &Desk) {
