@@ -48,6 +48,8 @@ pub struct Console {
     log: Option<File>,
     /// The log as a line of JSON for each message.
     json_log: Option<File>,
+    /// Whether errors and warnings are written to standard output as a line of JSON each.
+    json: bool,
     terminal: bool,
     /// When the logs last had a line of progress.
     last_logged: Option<Instant>,
@@ -59,7 +61,12 @@ impl Console {
     /// A console without logs.
     pub fn new(verbosity: Verbosity) -> Self {
         let terminal = std::io::stderr().is_terminal();
-        Self { verbosity, log: None, json_log: None, terminal, last_logged: None, line: 0 }
+        Self { verbosity, log: None, json_log: None, json: false, terminal, last_logged: None, line: 0 }
+    }
+
+    /// The same for programs: errors and warnings are written to standard output, too, as a line of JSON each.
+    pub fn with_json(self, json: bool) -> Self {
+        Self { json, ..self }
     }
 
     /// Whether a progress line can renew itself.
@@ -211,6 +218,14 @@ impl Console {
         self.write_json("progress", text, &fields);
     }
 
+    /// What went wrong beside what was found in a scene, for programs.
+    fn write_for_programs(&mut self, diagnostic: &Diagnostic) {
+        if self.json {
+            // Nobody is left to be told if that fails.
+            drop(writeln!(std::io::stdout(), "{}", to_json(diagnostic, &SourceMap::default())));
+        }
+    }
+
     fn wipe(&mut self) {
         if self.line > 0 {
             drop(write!(std::io::stderr(), "\r{}\r", " ".repeat(self.line)));
@@ -221,10 +236,12 @@ impl Console {
 
 impl Messages for Console {
     fn error(&mut self, message: &str) {
+        self.write_for_programs(&Diagnostic::error("", None, message));
         self.write(Level::Error, &format!("error: {message}"), message, "");
     }
 
     fn warn(&mut self, message: &str) {
+        self.write_for_programs(&Diagnostic::warning("", None, message));
         self.write(Level::Warning, &format!("warning: {message}"), message, "");
     }
 

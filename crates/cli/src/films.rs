@@ -1,7 +1,7 @@
 //! What is done with saved films alone: adding them, and developing one again.
 
 use crate::console::Console;
-use crate::{refuse, tell_findings};
+use crate::{refuse_scene, tell_findings};
 use indigo_front::flags::Arguments;
 use indigo_front::load::with_load_options;
 use indigo_front::messages::{Messages as _, say_saved};
@@ -55,7 +55,7 @@ pub fn tone_map(arguments: &Arguments, console: &mut Console) -> u8 {
     let loaded = with_load_options(scene, arguments, |options| load_development(scene, options));
     let (loaded, read): (LoadedDevelopment, _) = match loaded {
         Ok(loaded) => loaded,
-        Err(message) => return refuse(&message, console),
+        Err(message) => return refuse_scene(scene, message, arguments, console),
     };
     if !tell_findings(scene, &loaded.sink, &loaded.sources, arguments, console) {
         return FAILED;

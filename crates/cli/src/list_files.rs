@@ -1,12 +1,12 @@
 //! Listing the files that a scene needs.
 
 use crate::console::Console;
-use crate::{answer, refuse};
+use crate::{answer, refuse, refuse_scene, tell_findings};
 use indigo_diag::quoted;
 use indigo_front::flags::Arguments;
 use indigo_front::load::with_load_options;
 use indigo_front::messages::{Messages as _, count};
-use indigo_front::status::{BAD_INPUT, RENDERED};
+use indigo_front::status::{BAD_INPUT, FAILED, RENDERED};
 use indigo_scene::{Need, load_needs};
 
 /// Prints each file that a scene names, and which are missing; the exit status.
@@ -14,7 +14,7 @@ pub fn run(arguments: &Arguments, console: &mut Console) -> u8 {
     let [scene] = &arguments.files[..] else { return refuse("one scene is expected", console) };
     let loaded = match with_load_options(scene, arguments, |options| load_needs(scene, options)) {
         Ok((loaded, _)) => loaded,
-        Err(message) => return refuse(&message, console),
+        Err(message) => return refuse_scene(scene, message, arguments, console),
     };
     let line = if arguments.json { json } else { text };
     let listing: String = loaded.needs.iter().map(line).collect();
@@ -22,11 +22,11 @@ pub fn run(arguments: &Arguments, console: &mut Console) -> u8 {
     if printed != RENDERED {
         return printed;
     }
-    for diagnostic in loaded.sink.diagnostics() {
-        console.diagnose(diagnostic, &loaded.sources);
+    if !tell_findings(scene, &loaded.sink, &loaded.sources, arguments, console) {
+        return FAILED;
     }
     let missing = loaded.needs.iter().filter(|need| need.bytes.is_err()).count();
-    if missing > 0 {
+    if missing > 0 && !arguments.json {
         console.error(&format!("{scene}: {} missing", count(missing, "file")));
     }
     if missing > 0 || loaded.sink.has_errors() { BAD_INPUT } else { RENDERED }

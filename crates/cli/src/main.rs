@@ -2,6 +2,7 @@
 
 mod console;
 mod films;
+mod interrupts;
 mod list_files;
 mod net;
 mod packs;
@@ -10,7 +11,7 @@ mod render;
 mod upgrade;
 
 use console::Console;
-use indigo_diag::{Diagnostic, Severity, Sink, SourceMap, summary_to_json, to_json};
+use indigo_diag::{Diagnostic, Severity, Sink, SourceMap, quoted, summary_to_json, to_json};
 use indigo_front::flags::{self, Arguments, Role};
 use indigo_front::load::load_scene;
 use indigo_front::messages::{Messages as _, Verbosity, count};
@@ -19,6 +20,7 @@ use indigo_front::{VERSION, cpu, logical_cores, paths};
 use indigo_render::output::write_strategies;
 use indigo_render::pool::with_jobs;
 use indigo_render::saved::read_film;
+use indigo_scene::codes::BAD_FILE;
 use indigo_scene::{Loaded, Scene};
 use std::path::Path;
 use std::process::ExitCode;
@@ -33,7 +35,9 @@ fn main() -> ExitCode {
         Ok(arguments) => arguments,
         Err(message) => return ExitCode::from(refuse(&message, &mut Console::new(Verbosity::Usual))),
     };
-    ExitCode::from(run(&arguments, &mut Console::new(arguments.verbosity)))
+    let mut console = Console::new(arguments.verbosity).with_json(arguments.json);
+    interrupts::catch(&mut console);
+    ExitCode::from(run(&arguments, &mut console))
 }
 
 fn run(arguments: &Arguments, console: &mut Console) -> u8 {
@@ -50,7 +54,7 @@ fn run(arguments: &Arguments, console: &mut Console) -> u8 {
         return answer(&format!("{VERSION}\n"), console);
     }
     if let Some(path) = &arguments.dump_metadata {
-        return dump_metadata(path, console);
+        return dump_metadata(path, arguments.json, console);
     }
     if let Some(log) = &arguments.json_log
         && let Err(error) = console.log_json_to(Path::new(log))
@@ -105,7 +109,7 @@ fn run(arguments: &Arguments, console: &mut Console) -> u8 {
     let start = Instant::now();
     let (loaded, read) = match load_scene(scene, arguments) {
         Ok(loaded) => loaded,
-        Err(message) => return refuse(&message, console),
+        Err(message) => return refuse_scene(scene, message, arguments, console),
     };
     let loading = start.elapsed();
     if let Some(settings) = &loaded.settings
@@ -183,6 +187,16 @@ fn refuse(message: &str, console: &mut Console) -> u8 {
     BAD_INPUT
 }
 
+/// Says why a scene is not even read, as text or JSON; the exit status.
+fn refuse_scene(scene: &str, message: String, arguments: &Arguments, console: &mut Console) -> u8 {
+    if !arguments.json {
+        return refuse(&message, console);
+    }
+    let mut sink = Sink::new();
+    sink.push(Diagnostic::error(BAD_FILE, None, message));
+    if tell_findings(scene, &sink, &SourceMap::default(), arguments, console) { BAD_INPUT } else { FAILED }
+}
+
 /// Says what was found in a scene, as text or JSON; whether what was asked for arrived.
 fn tell_findings(
     scene: &str,
@@ -236,15 +250,20 @@ fn settings_listing(loaded: &Loaded) -> String {
     text.concat()
 }
 
-fn dump_metadata(path: &str, console: &mut Console) -> u8 {
+/// Prints what a picture says of itself; the exit status.
+fn dump_metadata(path: &str, json: bool, console: &mut Console) -> u8 {
     let entries = indigo_render::disk::read_limited(path.as_ref())
         .map_err(|e| e.to_string())
         .and_then(|bytes| indigo_imaging::png::read_metadata(&bytes).map_err(|e| e.to_string()));
-    match entries {
-        Ok(entries) => {
-            let lines: Vec<String> = entries.iter().map(|(key, value)| format!("{key}: {value}\n")).collect();
-            answer(&lines.concat(), console)
+    let line = |(key, value): &(String, String)| {
+        if json {
+            format!("{{\"key\":{},\"value\":{}}}\n", quoted(key), quoted(value))
+        } else {
+            format!("{key}: {value}\n")
         }
+    };
+    match entries {
+        Ok(entries) => answer(&entries.iter().map(line).collect::<String>(), console),
         Err(error) => {
             console.error(&format!("{path}: {error}"));
             FAILED

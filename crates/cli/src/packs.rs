@@ -1,12 +1,13 @@
 //! Packing scenes and unpacking them.
 
 use crate::console::Console;
-use crate::{refuse, tell_findings};
+use crate::interrupts::{end_in_order, is_interrupted};
+use crate::{refuse, refuse_scene, tell_findings};
 use indigo_front::flags::Arguments;
 use indigo_front::load::with_load_options;
 use indigo_front::messages::{Messages as _, count};
 use indigo_front::packs::is_pack;
-use indigo_front::status::{BAD_INPUT, FAILED, RENDERED};
+use indigo_front::status::{BAD_INPUT, FAILED, INTERRUPTED, RENDERED};
 use indigo_igs::pack::{PACK_ENDING, Pack, PackLimits};
 use indigo_render::atomic::write_atomically;
 use indigo_render::disk::read_limited;
@@ -40,7 +41,7 @@ pub fn pack(arguments: &Arguments, console: &mut Console) -> u8 {
     });
     let ((loaded, written), _) = match packed {
         Ok(packed) => packed,
-        Err(message) => return refuse(&message, console),
+        Err(message) => return refuse_scene(scene, message, arguments, console),
     };
     if !tell_findings(scene, &loaded.sink, &loaded.sources, arguments, console) {
         return FAILED;
@@ -89,7 +90,11 @@ pub fn unpack(arguments: &Arguments, console: &mut Console) -> u8 {
         }
         Err(error) => {
             console.error(&error.to_string());
-            if error.kind() == ErrorKind::InvalidData { BAD_INPUT } else { FAILED }
+            match error.kind() {
+                ErrorKind::InvalidData => BAD_INPUT,
+                ErrorKind::Interrupted => INTERRUPTED,
+                _ => FAILED,
+            }
         }
     }
 }
@@ -115,7 +120,11 @@ fn unpack_as_a_whole(pack: &Pack, folder: &Path) -> std::io::Result<()> {
         std::fs::create_dir_all(above).map_err(at(above))?;
     }
     std::fs::create_dir(unfinished).map_err(at(unfinished))?;
+    end_in_order();
     let written = pack.members().try_for_each(|(name, _)| {
+        if is_interrupted() {
+            return Err(Error::new(ErrorKind::Interrupted, "interrupted: nothing is unpacked"));
+        }
         let content = pack.read(name).map_err(|error| Error::new(ErrorKind::InvalidData, error))?;
         let path = unfinished.join(name);
         write_new(&path, &content).map_err(at(&path))

@@ -1,7 +1,7 @@
 //! `-ptest`: how fast a scene is rendered here, by a fixed amount of work.
 
 use crate::console::Console;
-use crate::{refuse, report};
+use crate::{refuse, refuse_scene, report, tell_findings};
 use indigo_diag::quoted;
 use indigo_front::flags::Arguments;
 use indigo_front::load::with_resolver;
@@ -113,9 +113,15 @@ fn load_cold(
         let (load_time, loaded) = timed(&options);
         (read, load_time, loaded)
     });
-    let ((read, load_time, loaded), _) = loaded.map_err(|message| refuse(&message, console))?;
+    let ((read, load_time, loaded), _) =
+        loaded.map_err(|message| refuse_scene(path, message, arguments, console))?;
+    let Some(scene) = loaded.scene else {
+        let is_told = tell_findings(path, &loaded.sink, &loaded.sources, arguments, console);
+        return Err(if is_told { BAD_INPUT } else { FAILED });
+    };
+    // With -json the figures are the only object.
     report(path, &loaded.sink, &loaded.sources, false, console);
-    loaded.scene.map_or(Err(BAD_INPUT), |scene| Ok((read, load_time, scene)))
+    Ok((read, load_time, scene))
 }
 
 fn technique(scene: &Scene) -> &'static str {

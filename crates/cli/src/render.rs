@@ -1,6 +1,7 @@
 //! Rendering a scene until it is done, saving on the way.
 
 use crate::console::Console;
+use crate::interrupts::{end_in_order, is_interrupted};
 use indigo_film::SavedFilm;
 use indigo_front::flags::Arguments;
 use indigo_front::messages::{Messages as _, say_saved};
@@ -12,11 +13,7 @@ use indigo_render::{Event, HaltReason, Progress, Session};
 use indigo_scene::{OutputSettings, Scene};
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
-
-/// How often Ctrl-C was pressed.
-static INTERRUPTS: AtomicUsize = AtomicUsize::new(0);
 
 /// How often the progress line is renewed on a terminal, where it costs no room. Elsewhere the setting
 /// `display_period` decides how often a line is written.
@@ -41,7 +38,7 @@ pub fn render(
         Ok(prepared) => prepared,
         Err(status) => return status,
     };
-    catch_interrupts(console);
+    end_in_order();
     let Prepared { scene, options, job, .. } = &prepared;
     let session = match &saved {
         Some(saved) => Session::go_on(Arc::clone(scene), options, saved),
@@ -55,25 +52,6 @@ pub fn render(
             follow(session, job, console)
         }
         Err(error) => fail(&error, console),
-    }
-}
-
-/// Whether Ctrl-C was pressed.
-pub fn is_interrupted() -> bool {
-    INTERRUPTS.load(Ordering::Relaxed) > 0
-}
-
-/// The first Ctrl-C ends the render in good order, the second one leaves at once.
-pub fn catch_interrupts(console: &mut Console) {
-    #[expect(clippy::disallowed_methods, reason = "the second Ctrl-C asks for just that")]
-    let leave = || std::process::exit(130);
-    let caught = ctrlc::set_handler(move || {
-        if INTERRUPTS.fetch_add(1, Ordering::Relaxed) > 0 {
-            leave();
-        }
-    });
-    if let Err(error) = caught {
-        console.warn(&format!("Ctrl-C will not save the picture: {error}"));
     }
 }
 
@@ -109,6 +87,26 @@ fn follow(mut session: Session, job: &SaveJob, console: &mut Console) -> u8 {
     }
 }
 
+/// Says why a render has ended.
+pub fn say_why(reason: &HaltReason, progress: &Progress, console: &mut Console) {
+    let spp = progress.samples_per_pixel;
+    match reason {
+        HaltReason::Samples => {
+            console.say(&format!("Halted with the samples per pixel that were asked for: {spp:.2}"));
+        }
+        HaltReason::Time => {
+            let seconds = progress.elapsed.as_secs_f64();
+            console.say(&format!("Halted after the time that was asked for: {seconds:.1} s"));
+        }
+        HaltReason::Error => {
+            let error = 100.0 * progress.relative_error.unwrap_or_default();
+            console.say(&format!("Halted with the estimated error that was asked for: {error:.2}%"));
+        }
+        HaltReason::Stopped => console.say("Interrupted: what was rendered is saved"),
+        HaltReason::Failed(message) => console.error(message),
+    }
+}
+
 fn finish(
     session: &Session,
     reason: &HaltReason,
@@ -118,9 +116,7 @@ fn finish(
 ) -> u8 {
     saver.wait_for_last(console);
     console.last_progress(progress);
-    if let HaltReason::Failed(message) = reason {
-        console.error(message);
-    }
+    say_why(reason, progress, console);
     let saved = session.saved(&saver.job().version);
     if saved.film.refused > 0 {
         console.warn(&format!(

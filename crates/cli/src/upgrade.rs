@@ -1,7 +1,7 @@
 //! `--upgrade`: a scene of any version of the format, written anew.
 
 use crate::console::Console;
-use crate::{refuse, tell_findings};
+use crate::{refuse, refuse_scene, tell_findings};
 use indigo_front::flags::Arguments;
 use indigo_front::load::with_load_options;
 use indigo_front::messages::Messages as _;
@@ -29,7 +29,7 @@ pub fn upgrade(arguments: &Arguments, console: &mut Console) -> u8 {
         with_load_options(scene, arguments, |options| load_canonical(scene, options, &title, &rewrite));
     let (loaded, read) = match loaded {
         Ok(loaded) => loaded,
-        Err(message) => return refuse(&message, console),
+        Err(message) => return refuse_scene(scene, message, arguments, console),
     };
     if overwrites(std::iter::once(output.into()), &read).is_some() {
         return refuse(

@@ -93,30 +93,38 @@ fn rank(address: IpAddr) -> u8 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::io::Write as _;
+    use std::net::UdpSocket;
+
+    /// Whether the loopback interface passes multicast on, found out without DNS-SD.
+    fn passes_multicast() -> std::io::Result<bool> {
+        const GROUP: Ipv4Addr = Ipv4Addr::new(239, 255, 77, 77);
+        let hears = UdpSocket::bind((Ipv4Addr::UNSPECIFIED, 0))?;
+        hears.join_multicast_v4(&GROUP, &Ipv4Addr::LOCALHOST)?;
+        hears.set_read_timeout(Some(Duration::from_secs(1)))?;
+        // By its address the system knows through which interface to send.
+        let says = UdpSocket::bind((Ipv4Addr::LOCALHOST, 0))?;
+        says.send_to(b"?", (GROUP, hears.local_addr()?.port()))?;
+        Ok(hears.recv_from(&mut [0; 1]).is_ok_and(|(_, from)| Some(from) == says.local_addr().ok()))
+    }
 
     /// Over the loopback interface, where machines allow multicast there.
     #[test]
     fn a_master_of_this_machine_is_found() {
+        if !matches!(passes_multicast(), Ok(true)) {
+            // Past what catches the output of tests that pass.
+            let said =
+                b"SKIPPED: whether masters are found, as the loopback interface passes no multicast on\n";
+            return drop(std::io::stderr().write_all(said));
+        }
         let port = 40_000 + (std::process::id() % 20_000) as u16;
-        let Ok(announcement) = Announcement::start(port, false) else {
-            return println!("skipped: this machine has no multicast DNS");
-        };
+        let announcement = Announcement::start(port, false).expect("multicast works");
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().expect("threads");
-        // Other masters may be there, too, and looking ends soon after the first has answered.
-        let is_ours = |found: &[(IpAddr, u16)]| found.iter().any(|(_, other)| *other == port);
-        let mut found = runtime.block_on(masters());
-        for _ in 0..5 {
-            if found.as_ref().map_or(true, |found| found.is_empty() || is_ours(found)) {
-                break;
-            }
-            found = runtime.block_on(masters());
-        }
+        let expected = (IpAddr::from(Ipv4Addr::LOCALHOST), port);
+        // Looking ends soon after the first has answered, who may be another; and datagrams may be lost.
+        let found = (0..5).any(|_| runtime.block_on(masters()).expect("multicast works").contains(&expected));
         drop(announcement);
-        match found {
-            Ok(found) if found.is_empty() => println!("skipped: this machine passes no multicast on"),
-            Ok(found) => assert!(found.contains(&(Ipv4Addr::LOCALHOST.into(), port)), "{found:?}"),
-            Err(error) => println!("skipped: {error}"),
-        }
+        assert!(found, "nobody tells of {expected:?}");
     }
 
     #[test]

@@ -10,6 +10,7 @@ use crate::proto::{
     JoinReply, JoinRequest, ReportRequest, SceneRequest, UploadPart, UploadReply, UploadStart,
 };
 use crate::slave::Connector;
+use crate::slave::calls::is_refused;
 use bytes::Bytes;
 use indigo_film::igi::write_parcel;
 use indigo_film::{FilmRecord, FilmSize, FilmState, LayerKind, Run, SavedFilm};
@@ -276,6 +277,7 @@ fn what_is_no_sound_upload_is_refused_and_harms_nothing() {
         let (mut client, _) = bench.join();
         let status = bench.send(&mut client, bytes).unwrap_err();
         assert_eq!(status.code(), Code::InvalidArgument, "{reason}: {status}");
+        assert!(is_refused(&status), "what it holds is not to be sent again: {status:?}");
         assert!(status.message().contains(reason), "{reason}: {status}");
         bench.assert_refused(reason);
         assert_eq!(bench.master.status().slaves[0].errors, 1);
@@ -293,8 +295,11 @@ fn lengths_are_kept_to() {
     let refused =
         |client: &mut FarmClient<Channel>, parts: Vec<Part>| bench.upload(client, parts).unwrap_err().code();
     let data = || Part::Data(sound.clone().into());
-    assert_eq!(refused(&mut client, vec![start(u64::MAX), data()]), Code::ResourceExhausted);
-    assert_eq!(refused(&mut client, vec![start(length - 1), data()]), Code::ResourceExhausted);
+    for stated in [u64::MAX, length - 1] {
+        let status = bench.upload(&mut client, vec![start(stated), data()]).unwrap_err();
+        assert_eq!(status.code(), Code::ResourceExhausted);
+        assert!(is_refused(&status), "{status:?}");
+    }
     assert_eq!(refused(&mut client, vec![start(length + 1), data()]), Code::DataLoss);
     assert_eq!(refused(&mut client, vec![start(length), start(length)]), Code::InvalidArgument);
     assert_eq!(refused(&mut client, vec![data()]), Code::InvalidArgument);

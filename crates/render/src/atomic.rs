@@ -11,7 +11,7 @@ use std::fs::{File, OpenOptions};
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// The ending of temporary files, behind the name of the file to be and two numbers.
 const ENDING: &str = ".indigo.tmp";
@@ -51,7 +51,9 @@ pub fn check_writable(path: &Path) -> io::Result<()> {
     let directory = directory_of(path);
     std::fs::create_dir_all(&directory)?;
     let (_, temporary) = new_temporary(&directory, path)?;
-    match std::fs::remove_file(&temporary) {
+    let removed = std::fs::remove_file(&temporary);
+    forget(&temporary);
+    match removed {
         // Another process took it for stale.
         Err(error) if error.kind() == ErrorKind::NotFound => Ok(()),
         other => other,
@@ -65,13 +67,32 @@ fn directory_of(path: &Path) -> PathBuf {
     }
 }
 
-/// Held where a file is made and locked, and where one without a lock is removed.
-static MAKING: Mutex<()> = Mutex::new(());
+/// The temporary files of this process. Held where a file is made and locked, and where one without a lock is removed.
+static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(vec![]);
+
+fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
+    UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Removes all temporary files of this process, as it is about to end: whoever begins to write from now on waits for that.
+pub fn abandon() {
+    let mut unfinished = unfinished();
+    for temporary in unfinished.drain(..) {
+        // It may just have taken its place.
+        drop(std::fs::remove_file(temporary));
+    }
+    std::mem::forget(unfinished);
+}
+
+/// A temporary file is finished, or given up.
+fn forget(temporary: &Path) {
+    unfinished().retain(|other| other != temporary);
+}
 
 /// A new file beside the one to be, locked.
 fn new_temporary(directory: &Path, path: &Path) -> io::Result<(File, PathBuf)> {
     static NUMBER: AtomicU64 = AtomicU64::new(0);
-    let _making = MAKING.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut unfinished = unfinished();
     loop {
         let mut name = path.file_name().unwrap_or_default().to_os_string();
         name.push(format!(".{}.{}{ENDING}", std::process::id(), NUMBER.fetch_add(1, Ordering::Relaxed)));
@@ -83,6 +104,7 @@ fn new_temporary(directory: &Path, path: &Path) -> io::Result<(File, PathBuf)> {
                 let file = made?;
                 // Where there are no locks, nobody can take the file for stale either.
                 drop(file.try_lock());
+                unfinished.push(temporary.clone());
                 return Ok((file, temporary));
             }
         }
@@ -100,6 +122,7 @@ fn write_temporary(
         // Best effort: the error that matters is the one being returned.
         drop(std::fs::remove_file(&temporary));
     }
+    forget(&temporary);
     written
 }
 
@@ -116,7 +139,7 @@ fn remove_stale(directory: &Path) {
     let Ok(entries) = std::fs::read_dir(directory) else { return };
     for entry in entries.filter_map(Result::ok).filter(|e| is_temporary(&e.file_name().to_string_lossy())) {
         let path = entry.path();
-        let _making = MAKING.lock().unwrap_or_else(PoisonError::into_inner);
+        let _making = unfinished();
         let unlocked = OpenOptions::new().read(true).open(&path).is_ok_and(|file| file.try_lock().is_ok());
         if unlocked {
             // Another process may be faster.

@@ -2,7 +2,8 @@
 
 use super::{events, fail, key};
 use crate::console::Console;
-use crate::render::{between_lines, catch_interrupts, is_interrupted};
+use crate::interrupts::{end_in_order, is_interrupted};
+use crate::render::{between_lines, say_why};
 use indigo_film::SavedFilm;
 use indigo_front::flags::{Arguments, Role};
 use indigo_front::messages::{Messages as _, count, say_saved};
@@ -59,7 +60,7 @@ pub fn master(
         Ok(prepared) => prepared,
         Err(status) => return status,
     };
-    catch_interrupts(console);
+    end_in_order();
     let Prepared { scene, options, job, .. } = &prepared;
     if let Err(error) = check_master(scene, parcel.pack.len() as u64) {
         return fail_session(&error, console);
@@ -236,9 +237,8 @@ impl Run {
                 console.progress_of(&progress, &self.company());
             }
             self.save(console);
-            let failure = self.own.as_ref().and_then(|own| own.ended.clone());
-            if failure.is_some() || is_interrupted() || self.is_enough(&progress) {
-                return self.finish(failure.as_ref(), console);
+            if let Some(reason) = self.why_end(&progress) {
+                return self.finish(&reason, console);
             }
         }
     }
@@ -271,9 +271,16 @@ impl Run {
         say_added(&added, console);
     }
 
-    fn is_enough(&self, progress: &Progress) -> bool {
-        self.halt.time.is_some_and(|time| progress.elapsed >= time)
-            || self.halt.samples_per_pixel.is_some_and(|spp| progress.samples_per_pixel >= spp as f64)
+    /// Why it is to end, if it is.
+    fn why_end(&self, progress: &Progress) -> Option<HaltReason> {
+        let Halt { time, samples_per_pixel, .. } = self.halt;
+        let failure = self.own.as_ref().and_then(|own| own.ended.clone());
+        let has_all = || samples_per_pixel.is_some_and(|spp| progress.samples_per_pixel >= spp as f64);
+        let is_late = || time.is_some_and(|time| progress.elapsed >= time);
+        failure
+            .or_else(|| is_interrupted().then_some(HaltReason::Stopped))
+            .or_else(|| has_all().then_some(HaltReason::Samples))
+            .or_else(|| is_late().then_some(HaltReason::Time))
     }
 
     /// How far it is, with what has been rendered here and is not in the film yet.
@@ -309,7 +316,7 @@ impl Run {
     }
 
     /// Gathers the last of what there is, and saves it; the exit status.
-    fn finish(mut self, failure: Option<&HaltReason>, console: &mut Console) -> u8 {
+    fn finish(mut self, reason: &HaltReason, console: &mut Console) -> u8 {
         let program = self.saver.job().version.clone();
         self.master.begin_end();
         let added = self.own.as_mut().map_or(Ok(None), |own| own.end(&self.master, &program));
@@ -321,9 +328,7 @@ impl Run {
         self.tell_events(console);
         let progress = self.progress();
         console.last_progress(&progress);
-        if let Some(HaltReason::Failed(message)) = failure {
-            console.error(message);
-        }
+        say_why(reason, &progress, console);
         let job = self.saver.job();
         let film = self.master.copy();
         let mut saved = job.save(&film);
@@ -341,7 +346,7 @@ impl Run {
             }
         }
         let is_saved = say_saved(&saved, console);
-        if is_saved && failure.is_none() { RENDERED } else { FAILED }
+        if is_saved && !matches!(reason, HaltReason::Failed(_)) { RENDERED } else { FAILED }
     }
 
     /// Waits for what slaves have left. Those that send may need longer than those that are silent, which a slave that was

@@ -3,7 +3,7 @@
 use super::scene::SceneLoader;
 use super::{events, fail, key};
 use crate::console::Console;
-use crate::render::{catch_interrupts, is_interrupted};
+use crate::interrupts::{end_in_order, is_interrupted};
 use indigo_front::flags::Arguments;
 use indigo_front::messages::Messages as _;
 use indigo_front::status::{BAD_INPUT, FAILED, RENDERED};
@@ -51,7 +51,7 @@ pub fn slave(arguments: &Arguments, console: &mut Console) -> u8 {
         program: program(),
         cache: paths::pack_cache(),
     };
-    catch_interrupts(console);
+    end_in_order();
     let (sink, events) = events();
     let slave = match Slave::start(options, Arc::new(SceneLoader), sink) {
         Ok(slave) => slave,

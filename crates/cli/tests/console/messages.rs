@@ -93,6 +93,8 @@ fn a_fraction_of_a_sample_is_rounded_up_and_said() {
     assert_eq!(ran.status, Some(0), "{ran:?}");
     assert!(ran.stderr.contains("halting at 2 per pixel, not at 1.5"), "{}", ran.stderr);
     assert!(bench.run(&["-dumpmetadata", "a.png"]).stdout.contains("samples_per_pixel: 2.00000"));
+    let told = bench.run(&["-dumpmetadata", "a.png", "-json"]).stdout;
+    assert!(told.contains("{\"key\":\"samples_per_pixel\",\"value\":\"2.00000\"}\n"), "{told}");
 }
 
 /// Every line is JSON, the last one a summary.
@@ -114,6 +116,36 @@ fn json_is_complete() {
         assert_eq!(ran.stderr, "", "all is in the JSON");
         assert!(ran.stdout.lines().all(|l| l.starts_with('{') && l.ends_with('}')), "{}", ran.stdout);
         assert_eq!(ran.stdout.lines().last(), Some(summary));
+    }
+}
+
+/// What no scene, picture or output file comes of is told to programs, too.
+#[test]
+fn json_tells_of_every_failure() {
+    let bench = Workbench::new("<logging>false</logging>");
+    bench.write("bad.pigs", "no zip file");
+    bench.write("bad.png", "no picture");
+    for arguments in [
+        &["--check", "bad.pigs"][..],
+        &["--list-files", "bad.pigs"],
+        &["--ptest", "bad.pigs"],
+        &["--tonemap", "bad.pigs", "a.igi", "a.png"],
+        &["--dumpmetadata", "bad.png"],
+        &["--dumpmetadata", "nowhere.png"],
+        &["--tonemap", "scene.igs", "nowhere.igi", "a.png"],
+        &["--pack", "scene.igs", "no_folder.igs/"],
+        &["--ptest", "nowhere.igs"],
+        &["bad.pigs", "-o", "a.png"],
+        &["scene.igs", "-haltspp", "1", "-r", "nowhere.igi"],
+    ] {
+        let ran = bench.run(&[arguments, &["--json"]].concat());
+        assert!(matches!(ran.status, Some(1 | 2)), "{arguments:?}: {ran:?}");
+        let is_json = |line: &str| line.starts_with('{') && line.ends_with('}');
+        assert!(ran.stdout.lines().all(is_json), "{arguments:?}: {}", ran.stdout);
+        let told =
+            ran.stdout.lines().find(|line| line.contains("\"severity\":\"error\"")).unwrap_or_default();
+        let name = arguments.iter().find(|a| a.contains("bad") || a.contains("no")).expect("what is wrong");
+        assert!(told.contains(name), "{arguments:?}: {ran:?}");
     }
 }
 

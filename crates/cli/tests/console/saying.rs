@@ -139,3 +139,18 @@ fn bash_completes_options_and_files() {
     assert_eq!(complete("-haltspp 3", 2), "\n");
     assert!(complete("-r s", 2).contains("scene.igs"));
 }
+
+/// Why a render has ended is said with the number that counts.
+#[test]
+fn why_it_halts_is_said() {
+    let bench = Workbench::new("<logging>false</logging>");
+    for (condition, said) in [
+        (["-haltspp", "3"], "Halted with the samples per pixel that were asked for: 3.00\n"),
+        (["-halt", "0.2"], "Halted after the time that was asked for: 0.2 s\n"),
+        (["-halterror", "0.5"], "Halted with the estimated error that was asked for: "),
+    ] {
+        let ran = bench.run(&[&["scene.igs", "-o", "a.png", "-t", "1"], &condition[..]].concat());
+        assert_eq!(ran.status, Some(0), "{ran:?}");
+        assert!(ran.stderr.contains(said), "{said}: {}", ran.stderr);
+    }
+}

@@ -24,6 +24,7 @@ fn an_interrupt_saves_and_ends_well() {
     assert_picture(&bench.path("a.png"), 40, 30);
     let said = std::fs::read_to_string(bench.path("stderr")).expect("what it said");
     assert!(said.trim_end().ends_with("Saved a.png"), "{said}");
+    assert!(said.contains("Interrupted: what was rendered is saved"), "{said}");
 }
 
 /// A picture so large that saving it takes much longer than pressing Ctrl-C twice.
@@ -38,6 +39,40 @@ fn a_second_interrupt_leaves_at_once() {
     std::thread::sleep(Duration::from_millis(50));
     interrupt(&running);
     assert_eq!(running.finish(), Some(130));
+    assert_eq!(unfinished(&bench), [""; 0]);
+}
+
+/// Names of what was being written.
+fn unfinished(bench: &Workbench) -> Vec<String> {
+    bench
+        .files()
+        .into_iter()
+        .filter(|name| name.contains(".indigo.") || name.contains(".unpacking"))
+        .collect()
+}
+
+/// What renders nothing has nothing to save: it leaves by the first one, and takes along what is not finished.
+#[test]
+fn an_interrupted_pack_leaves_nothing_behind() {
+    let bench = Workbench::new("<logging>false</logging>");
+    // Nothing is decoded, and a picture is not compressed again.
+    let texture = std::fs::File::create(bench.path("a.png")).expect("the test's own directory");
+    texture.set_len(100 << 20).expect("a hole takes no room");
+    let material = "<material><name>wood</name><diffuse><albedo_texture><uv_set>uv</uv_set><path>a.png</path>\
+                    </albedo_texture></diffuse></material></scene>";
+    bench.write("scene.igs", &super::workbench::scene("").replace("</scene>", material));
+    let mut running = bench.start(&["--pack", "scene.igs", "out.pigs"]);
+    running.wait_for_save(&bench, "out.pigs");
+    interrupt(&running);
+    assert_eq!(running.finish(), Some(130));
+    assert_eq!(bench.files(), ["a.png", "scene.igs", "stderr", "stdout"]);
+    assert_eq!(bench.run(&["--pack", "scene.igs", "out.pigs"]).status, Some(0));
+    // The texture is the first of two files in it.
+    let mut running = bench.start(&["--unpack", "out.pigs", "folder"]);
+    running.wait_for(&bench.path("folder.unpacking/PACKED_0_a.png"));
+    interrupt(&running);
+    assert_eq!(running.finish(), Some(130));
+    assert!(!bench.path("folder").exists() && unfinished(&bench).is_empty(), "{:?}", bench.files());
 }
 
 /// Deaths at any moment between and in saves: there are always a whole picture and a whole film, each
@@ -47,9 +82,6 @@ fn sudden_death_leaves_a_whole_picture_and_film() {
     const DEATHS: u64 = 40;
     let settings = format!("{OFTEN}<save_igi>true</save_igi><width>300</width><height>225</height>");
     let bench = Workbench::new(&settings);
-    let unfinished = |bench: &Workbench| -> Vec<String> {
-        bench.files().into_iter().filter(|n| n.contains(".indigo.")).collect()
-    };
     for death in 0..DEATHS {
         let left = unfinished(&bench);
         let mut running = bench.start(&["scene.igs", "-o", "a.png", "-t", "1"]);

@@ -60,6 +60,7 @@ impl Farm {
     }
 
     /// Starts a slave with that seed, which has to look for a master.
+    #[cfg(target_os = "linux")]
     pub fn searching_slave(&self, seed: u64) -> Running {
         self.start_slave(seed, &[])
     }

@@ -2,6 +2,7 @@
 
 use super::farm::{Farm, interrupt};
 use super::stories::{assert_all_of, assert_complete};
+use std::io::Write as _;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
@@ -21,6 +22,21 @@ impl Namespace {
                 namespace.is_apart() && namespace.run("ip link set lo up")
             })
             .then_some(namespace)
+    }
+
+    /// With a link over which multicast passes, as in an office.
+    fn with_lan() -> Option<Self> {
+        let has_lan = |namespace: &Self| {
+            let mut commands = [
+                "ip link add lan type veth peer name other",
+                "ip addr add 10.77.0.1/24 dev lan",
+                "ip link set lan up",
+                "ip link set other up",
+            ]
+            .into_iter();
+            commands.all(|command| namespace.run(command))
+        };
+        Self::new().filter(has_lan)
     }
 
     fn is_apart(&self) -> bool {
@@ -51,10 +67,16 @@ impl Drop for Namespace {
     }
 }
 
+/// Says what is not known, past what catches the output of tests that pass.
+fn skip(what: &str) {
+    let why = "as this system gives no network namespaces (unshare -rn, ip)";
+    drop(writeln!(std::io::stderr(), "SKIPPED: {what}, {why}"));
+}
+
 #[test]
 fn a_link_that_is_slow_and_fails_costs_no_sample() {
     let Some(network) = Namespace::new() else {
-        return println!("skipped: this system gives no network namespaces (unshare -rn)");
+        return skip("whether a slow link that fails costs samples");
     };
     let mut farm = Farm::new("");
     farm.bench.wrapper = network.wrapper();
@@ -79,4 +101,19 @@ fn a_link_that_is_slow_and_fails_costs_no_sample() {
         interrupt(slave);
         assert_eq!(slave.finish(), Some(0));
     }
+}
+
+/// A slave that is not told where its master is looks for it in the local network.
+#[test]
+fn masters_are_found() {
+    let Some(network) = Namespace::with_lan() else { return skip("whether slaves find masters") };
+    let mut farm = Farm::new("");
+    farm.bench.wrapper = network.wrapper();
+    farm.start_master("m", &[]);
+    let mut slave = farm.searching_slave(3);
+    farm.wait_for_uploads(3, 1);
+    interrupt(&slave);
+    assert_eq!(slave.finish(), Some(0));
+    farm.end_master();
+    assert_complete(&farm);
 }

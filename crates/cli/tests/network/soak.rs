@@ -86,10 +86,30 @@ fn soak(rounds: u64, seed: u64) {
     farm.end_master();
     assert_all_of(&farm, &[1]);
     assert_complete(&farm);
+    tell(&farm, rounds);
     for slave in others.iter_mut().chain([&mut veteran]) {
         interrupt(slave);
         assert_eq!(slave.finish(), Some(0));
     }
+}
+
+/// Says what happened, to those who look.
+fn tell(farm: &Farm, rounds: u64) {
+    let logs = farm.logs();
+    let all = |event: &str| {
+        let event = format!("\"event\":\"{event}\"");
+        logs.iter().map(|log| log.0.matches(&event).count()).sum::<usize>()
+    };
+    let spp = farm.film().film.samples_per_pixel();
+    println!(
+        "{rounds} rounds: {} slaves joined {} times, {} uploads were added and {} came again, {} connections were lost; \
+         {spp:.1} samples per pixel, all of them told of",
+        all("rendering"),
+        all("joined"),
+        all("added"),
+        all("repeated"),
+        all("disconnected")
+    );
 }
 
 #[test]
@@ -97,7 +117,7 @@ fn a_short_night() {
     soak(8, 1);
 }
 
-/// Some minutes. `cargo test -p indigo-cli --test network -- --ignored`
+/// Some minutes. `cargo xtask test --soak`
 #[test]
 #[ignore = "takes minutes"]
 fn a_long_night() {

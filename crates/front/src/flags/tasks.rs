@@ -46,7 +46,7 @@ static TASKS: &[Task] = &[
     task("upgrade", [2, 2], "a scene and a file to write", "--upgrade SCENE.igs OUT.igs", &["json"]),
     task("list-files", [1, 1], "a scene", "--list-files SCENE.igs", &["json"]),
     task("make-key", [0, 0], "no file but its own", "--make-key FILE", &[]),
-    task("dumpmetadata", [0, 0], "no file but its own", "--dumpmetadata PICTURE.png", &[]),
+    task("dumpmetadata", [0, 0], "no file but its own", "--dumpmetadata PICTURE.png", &["json"]),
     task("ptest", [0, 1], "a scene", "--ptest SCENE.igs", &["haltspp", "t", "seed", "json"]),
     task(
         "check",

@@ -69,6 +69,7 @@ pub async fn serve(listener: TcpListener, view: View) -> std::io::Result<()> {
     let files = [
         ("/", "text/html; charset=utf-8", include_str!("page.html")),
         ("/page.css", "text/css; charset=utf-8", include_str!("page.css")),
+        ("/icon.svg", "image/svg+xml", include_str!("icon.svg")),
         ("/page.js", "text/javascript; charset=utf-8", include_str!("page.js")),
     ];
     let mut router = Router::new()

@@ -41,33 +41,49 @@ function cell(row, text, kind) {
   return td;
 }
 
-function showSlave(body, slave, most) {
+// A machine in the table: its name, and below that what else there is to say.
+function showMachine(body, machine, most) {
   const row = body.insertRow();
-  const isThere = ["loading", "rendering", "done"].includes(slave.state);
-  row.className = isThere ? slave.state : "gone " + slave.state;
-  const name = cell(row, slave.name);
-  const address = document.createElement("span");
-  address.className = "address";
-  address.textContent = slave.address;
-  name.append(address);
-  cell(row, slave.state, "state");
-  cell(row, slave.threads, "number");
+  const isThere = !isGone(machine);
+  row.className = isThere ? machine.state : "gone " + machine.state;
+  const name = cell(row, machine.name, "name");
+  for (const [text, kind] of [[machine.address, "below"], [machine.last_error, "below bad"]]) {
+    if (!text) continue;
+    const line = document.createElement("span");
+    line.className = kind;
+    line.textContent = text;
+    name.append(line);
+  }
+  cell(row, machine.state, "state");
+  cell(row, machine.threads, "number spare");
   const share = cell(row, "", "share");
   if (isThere) {
     const box = document.createElement("div");
     const bar = document.createElement("progress");
     bar.max = Math.max(most, 1e-9);
-    bar.value = slave.samples_per_second;
+    bar.value = machine.samples_per_second || 0;
     bar.setAttribute("aria-hidden", "true");
     const text = document.createElement("span");
-    text.textContent = number(slave.samples_per_second);
+    text.textContent = number(machine.samples_per_second);
     box.append(bar, text);
     share.append(box);
   }
-  cell(row, number(slave.samples), "number");
-  cell(row, ago(slave.last_upload_s), "number");
-  const errors = cell(row, slave.errors, slave.errors ? "number errors some" : "number errors");
-  if (slave.last_error) errors.title = slave.last_error;
+  cell(row, number(machine.samples), "number spare");
+  cell(row, ago(machine.last_upload_s), "number spare");
+  cell(row, machine.errors, machine.errors ? "number spare bad" : "number spare");
+}
+
+function isGone(machine) {
+  return machine.state === "left" || machine.state === "lost";
+}
+
+// All machines: a working master first, and those that are gone last.
+function machines(status) {
+  const own = status.own
+    ? [{ name: "The master itself", state: "rendering", samples: null, last_upload_s: null, errors: 0, ...status.own }]
+    : [];
+  const gone = status.slaves.filter(isGone).slice(-20);
+  return [...own, ...status.slaves.filter((slave) => !isGone(slave)), ...gone];
 }
 
 function show(status) {
@@ -80,13 +96,13 @@ function show(status) {
   by("rendered").textContent = time(status.rendered_s);
   by("received").textContent = bytes(status.bytes_received);
   by("refused").textContent = status.refused;
+  const all = machines(status);
   const body = document.createElement("tbody");
   body.id = "slaves";
-  const most = Math.max(0, ...status.slaves.map((slave) => slave.samples_per_second || 0));
-  const gone = (slave) => slave.state === "left" || slave.state === "lost";
-  for (const slave of status.slaves.filter((s) => !gone(s))) showSlave(body, slave, most);
-  for (const slave of status.slaves.filter(gone).slice(-20)) showSlave(body, slave, most);
+  const most = Math.max(0, ...all.map((machine) => machine.samples_per_second || 0));
+  for (const machine of all) showMachine(body, machine, most);
   by("slaves").replaceWith(body);
+  by("table").hidden = all.length === 0;
   by("nobody").hidden = status.slaves.length > 0;
   showPicture(status);
 }

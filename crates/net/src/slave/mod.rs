@@ -1,5 +1,6 @@
 //! The slave: fetches a scene, renders it, and sends what it has rendered, until told to stop.
 
+pub(crate) mod calls;
 mod connect;
 mod engine;
 pub(crate) mod fetch;
@@ -12,6 +13,7 @@ pub use fetch::SceneFiles;
 use crate::NetError;
 use crate::event::{Event, Sink};
 use crate::key::{Key, random_bytes};
+use calls::Outcome;
 use indigo_render::Progress;
 use indigo_scene::Scene;
 use std::path::PathBuf;
@@ -19,7 +21,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 use tokio::sync::watch;
-use visit::{Life, Outcome};
+use visit::Life;
 
 /// The time until the next try after a first failure, and the longest.
 const FIRST_PAUSE: Duration = Duration::from_secs(1);

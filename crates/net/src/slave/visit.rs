@@ -1,5 +1,6 @@
 //! One connection to a master, from joining to good-bye.
 
+use super::calls::{Client, Outcome, answer, beside_reports, is_refused, refusal};
 use super::connect::{Connector, written};
 use super::fetch::{self, SceneFiles};
 use super::work::Work;
@@ -8,8 +9,7 @@ use crate::discovery;
 use crate::event::{Event, Sink};
 use crate::key::{KeyError, random_bytes};
 use crate::ledger::run_of;
-use crate::limits::{ANSWER, PIECE, PROTOCOL, SILENCE, UPLOAD};
-use crate::proto::farm_client::FarmClient;
+use crate::limits::{PIECE, PROTOCOL, UPLOAD};
 use crate::proto::report_reply::Order;
 use crate::proto::report_request::State;
 use crate::proto::upload_part::Part;
@@ -22,15 +22,12 @@ use indigo_film::{FilmRecord, Run, SavedFilm};
 use indigo_render::Progress;
 use indigo_render::saved::blank_record;
 use indigo_scene::Scene;
-use std::error::Error as _;
-use std::future::Future;
 use std::net::SocketAddr;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 use tokio::sync::watch;
 use tokio::time::{Instant, MissedTickBehavior, interval, sleep, timeout};
-use tonic::transport::Channel;
-use tonic::{Code, Status};
+use tonic::Status;
 
 /// The shortest and the longest time between reports that a slave keeps to, whatever a master asks for, in seconds.
 const REPORTS: [f64; 2] = [0.1, 10.0];
@@ -44,8 +41,6 @@ const WHILE_ENDING: Duration = Duration::from_millis(250);
 fn period(seconds: f64, [shortest, longest]: [f64; 2]) -> Duration {
     Duration::from_secs_f64(if seconds.is_nan() { longest } else { seconds.clamp(shortest, longest) })
 }
-
-type Client = FarmClient<Channel>;
 
 /// What a slave is.
 pub struct Life {
@@ -67,49 +62,6 @@ pub struct Life {
     pub work: Option<Work>,
     /// How far that is, for others to see.
     pub seen: Arc<Mutex<Option<Progress>>>,
-}
-
-/// How a visit ends.
-pub enum Outcome {
-    /// The slave was told to stop.
-    Stopped,
-    /// The master has ended the render.
-    Finished,
-    /// The master wants nothing of this slave.
-    Refused(String),
-    /// The connection is lost, or was never there.
-    Lost(String),
-    /// The renderer has a fault.
-    Broken(String),
-}
-
-/// What a master's answer means, if it is none.
-fn refusal(status: &Status) -> Outcome {
-    let message = match status.message() {
-        "" => status.code().description().to_owned(),
-        message => message.to_owned(),
-    };
-    match status.code() {
-        Code::FailedPrecondition | Code::AlreadyExists | Code::InvalidArgument | Code::Unimplemented => {
-            Outcome::Refused(format!("the master refuses: {message}"))
-        }
-        _ => Outcome::Lost(format!("the connection to the master is lost: {message}")),
-    }
-}
-
-/// Whether it is the master that wants no such upload. Connections that end for too much traffic have a like code, and an
-/// error behind it.
-fn is_refused(status: &Status) -> bool {
-    matches!(status.code(), Code::InvalidArgument | Code::ResourceExhausted) && status.source().is_none()
-}
-
-/// A short call's answer.
-async fn answer<T>(call: impl Future<Output = Result<tonic::Response<T>, Status>>) -> Result<T, Outcome> {
-    match timeout(ANSWER, call).await {
-        Ok(Ok(reply)) => Ok(reply.into_inner()),
-        Ok(Err(status)) => Err(refusal(&status)),
-        Err(_) => Err(Outcome::Lost("the master does not answer".to_owned())),
-    }
 }
 
 impl Life {
@@ -399,27 +351,6 @@ impl Life {
     /// Says good-bye. The master will notice anyhow.
     async fn leave(&self, client: &mut Client) {
         drop(answer(client.leave(LeaveRequest { slave: self.id() })).await);
-    }
-}
-
-/// What a call gives that may take long, with signs of life meanwhile: it may have to wait for its turn, or for the network.
-async fn beside_reports<T>(
-    call: impl Future<Output = T>,
-    client: &mut Client,
-    id: &[u8; 16],
-) -> Result<T, Outcome> {
-    let mut call = std::pin::pin!(call);
-    let mut reports = interval(SILENCE / 4);
-    reports.tick().await;
-    loop {
-        tokio::select! {
-            given = &mut call => return Ok(given),
-            _ = reports.tick() => {
-                let slave = Bytes::copy_from_slice(id);
-                let report = ReportRequest { slave, state: State::Rendering.into(), ..ReportRequest::default() };
-                answer(client.report(report)).await?;
-            }
-        }
     }
 }
 
