@@ -39,6 +39,11 @@ pub fn pack_cache() -> PathBuf {
     cache().join("packs")
 }
 
+/// The directory of locks that stand for pictures that are being rendered.
+pub fn claims() -> PathBuf {
+    cache().join("claims")
+}
+
 /// The user's cache directory, or `INDIGO_CACHE`.
 fn cache() -> PathBuf {
     let from = |name: &str| std::env::var_os(name).filter(|v| !v.is_empty()).map(PathBuf::from);

@@ -53,18 +53,32 @@ impl Saver {
         film: impl FnOnce() -> SavedFilm,
         messages: &mut dyn Messages,
     ) -> Option<FilmRecord> {
-        let is_finished = self.saving.as_ref().is_some_and(|underway| underway.saving.is_finished());
-        let saved = if is_finished { self.wait_for_last(messages) } else { None };
-        if self.saving.is_none() && self.last.elapsed() >= self.period {
-            self.last = Instant::now();
-            let film = film();
-            let record = film.record.clone();
-            match self.job.spawn(film) {
-                Ok(saving) => self.saving = Some(Underway { saving, record }),
-                Err(error) => self.complain(&error, messages),
-            }
+        let saved = self.look_after(messages);
+        if self.is_due() {
+            self.begin(film(), messages);
         }
         saved
+    }
+
+    /// The record of the film that has been saved since this was last asked, if any was.
+    pub fn look_after(&mut self, messages: &mut dyn Messages) -> Option<FilmRecord> {
+        let is_finished = self.saving.as_ref().is_some_and(|underway| underway.saving.is_finished());
+        if is_finished { self.wait_for_last(messages) } else { None }
+    }
+
+    /// Whether it is time for a save, and none is under way.
+    pub fn is_due(&self) -> bool {
+        self.saving.is_none() && self.last.elapsed() >= self.period
+    }
+
+    /// Begins a save.
+    pub fn begin(&mut self, film: SavedFilm, messages: &mut dyn Messages) {
+        self.last = Instant::now();
+        let record = film.record.clone();
+        match self.job.spawn(film) {
+            Ok(saving) => self.saving = Some(Underway { saving, record }),
+            Err(error) => self.complain(&error, messages),
+        }
     }
 
     /// Waits for a save that has begun; the record of its film, if that is a file now.

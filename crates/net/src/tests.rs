@@ -182,6 +182,27 @@ fn a_slave_gets_the_scene_and_its_work_counts_once() {
     assert_eq!((status.slaves[0].samples, status.slaves[0].uploads), (6, 3));
 }
 
+/// What slaves have still to send is counted once: as waiting, or in the film.
+#[test]
+fn what_waits_is_counted_until_it_is_in_the_film() {
+    let bench = Bench::new(None);
+    let (mut client, _) = bench.join();
+    let slave = Bytes::copy_from_slice(&SLAVE);
+    let report = ReportRequest { slave, waiting_samples: 7, ..ReportRequest::default() };
+    let waits = |bench: &Bench| (bench.master.status().samples, bench.master.status().waiting);
+    bench.runtime.block_on(client.report(report.clone())).unwrap();
+    assert_eq!(waits(&bench), (0, 7));
+    bench.send(&mut client, parcel(&film(0, 5))).unwrap();
+    assert_eq!(waits(&bench), (5, 2));
+    // More than it has told of.
+    bench.send(&mut client, parcel(&film(5, 9))).unwrap();
+    assert_eq!(waits(&bench), (9, 0));
+    bench.runtime.block_on(client.report(ReportRequest { waiting_samples: u64::MAX, ..report })).unwrap();
+    assert_eq!(waits(&bench), (9, u64::MAX));
+    let _again = bench.join();
+    assert_eq!(waits(&bench), (9, 0), "what it has told of may have come");
+}
+
 #[test]
 fn without_the_key_nobody_gets_in() {
     let (key, other) = (Key::random().unwrap(), Key::random().unwrap());

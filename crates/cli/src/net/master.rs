@@ -1,6 +1,8 @@
 //! `-n m` and `-n wm`.
 
-use super::{events, fail, key};
+use super::own::Own;
+use super::{PULSE, events, fail, key};
+use crate::claim::Claim;
 use crate::console::Console;
 use crate::interrupts::{end_in_order, is_interrupted};
 use crate::render::{between_lines, say_why};
@@ -14,19 +16,17 @@ use indigo_front::{packs, paths, program};
 use indigo_net::event::Event;
 use indigo_net::ledger::Refusal;
 use indigo_net::limits::{PORT, SETTINGS};
-use indigo_net::master::{Master, OwnStatus, SceneParcel, Setup};
+use indigo_net::master::{Master, SceneParcel, Setup, Status};
 use indigo_render::disk::read_limited;
 use indigo_render::memory::check_master;
 use indigo_render::saved::blank_film;
-use indigo_render::{Event as SessionEvent, Halt, HaltReason, Options, Progress, Session};
+use indigo_render::{Halt, HaltReason, Progress};
 use indigo_scene::Scene;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::Receiver;
 use std::time::{Duration, Instant};
 
-/// How long Ctrl-C may go unnoticed.
-const PULSE: Duration = Duration::from_millis(50);
 /// How long slaves have, at the end, to begin sending what they have.
 const GRACE: Duration = Duration::from_secs(20);
 /// How long they have in all, if they do.
@@ -62,6 +62,15 @@ pub fn master(
     };
     end_in_order();
     let Prepared { scene, options, job, .. } = &prepared;
+    let _claim = match Claim::of(&job.paths.png, console) {
+        Ok(claim) => claim,
+        Err(status) => return status,
+    };
+    let igi = job.paths.igi();
+    if saved.is_none() && igi.exists() {
+        let igi = igi.display();
+        console.warn(&format!("the film {igi} will be written over; to go on with it, give -r {igi}, too"));
+    }
     if let Err(error) = check_master(scene, parcel.pack.len() as u64) {
         return fail_session(&error, console);
     }
@@ -138,74 +147,6 @@ fn say_page(master: &Master, console: &mut Console) {
     }
 }
 
-/// What a working master renders itself.
-struct Own {
-    session: Session,
-    seed: u64,
-    threads: usize,
-    /// Samples that were added to the film.
-    added: u64,
-    progress: Progress,
-    /// Why it has ended by itself.
-    ended: Option<HaltReason>,
-}
-
-impl Own {
-    fn start(
-        scene: &Arc<Scene>,
-        options: &Options,
-        seed: u64,
-        master: &Master,
-    ) -> Result<Self, indigo_render::SessionError> {
-        // The film's halting conditions are not the session's.
-        let options = Options { seed, halt: Halt::default(), ..options.clone() };
-        let mut session = Session::start_beside(Arc::clone(scene), &options, &master.record())?;
-        let progress = session.progress();
-        Ok(Self { session, seed, threads: options.threads, added: 0, progress, ended: None })
-    }
-
-    /// Lets it work for so long.
-    fn wait(&mut self, time: Duration, master: &Master) {
-        match self.session.wait(time) {
-            SessionEvent::Progress(progress) => self.progress = progress,
-            SessionEvent::Halted(reason, progress) => {
-                self.progress = progress;
-                self.ended.get_or_insert(reason);
-                // It waits no more by itself.
-                std::thread::sleep(time);
-            }
-        }
-        self.tell(master);
-    }
-
-    fn tell(&self, master: &Master) {
-        master.tell_own(OwnStatus {
-            threads: self.threads,
-            samples_per_second: self.progress.samples_per_second,
-            pending: self.progress.samples.saturating_sub(self.added),
-        });
-    }
-
-    /// Adds what it has rendered to the film; what that was.
-    fn hand_over(&mut self, master: &Master, program: &str) -> Result<Option<Event>, Refusal> {
-        let Some(film) = self.session.drain(program) else { return Ok(None) };
-        master.add(self.seed, &film)?;
-        let samples = film.record.as_ref().map_or(0, |record| record.samples);
-        self.added += samples;
-        self.progress = self.session.progress();
-        self.tell(master);
-        let run = film.record.and_then(|record| record.runs.first().copied());
-        Ok(run.map(|run| Event::Rendered { samples, run }))
-    }
-
-    /// Ends it, with all that it has.
-    fn end(&mut self, master: &Master, program: &str) -> Result<Option<Event>, Refusal> {
-        self.session.stop();
-        while !matches!(self.session.wait(PULSE), SessionEvent::Halted(..)) {}
-        self.hand_over(master, program)
-    }
-}
-
 /// Says what became of what was rendered here.
 fn say_added(added: &Result<Option<Event>, Refusal>, console: &mut Console) {
     match added {
@@ -237,7 +178,7 @@ impl Run {
                 console.progress_of(&progress, &self.company());
             }
             self.save(console);
-            if let Some(reason) = self.why_end(&progress) {
+            if let Some(reason) = self.why_end(progress.elapsed) {
                 return self.finish(&reason, console);
             }
         }
@@ -258,29 +199,42 @@ impl Run {
     }
 
     fn save(&mut self, console: &mut Console) {
-        let Self { master, own, saver, .. } = self;
-        let version = saver.job().version.clone();
-        let mut added = Ok(None);
-        let film = || {
-            added = own.as_mut().map_or(Ok(None), |own| own.hand_over(master, &version));
-            master.copy()
-        };
-        if let Some(record) = saver.tend(film, console) {
-            master.saved(record);
+        if let Some(record) = self.saver.look_after(console) {
+            self.master.saved(record);
         }
-        say_added(&added, console);
+        if self.saver.is_due() {
+            let version = self.saver.job().version.clone();
+            let added = self.own.as_mut().map_or(Ok(None), |own| own.hand_over(&self.master, &version));
+            say_added(&added, console);
+            let film = self.copy(console);
+            self.saver.begin(film, console);
+        }
+    }
+
+    /// A copy of the film, of all of which the log tells by then.
+    fn copy(&self, console: &mut Console) -> SavedFilm {
+        let film = self.master.copy();
+        self.tell_events(console);
+        film
     }
 
     /// Why it is to end, if it is.
-    fn why_end(&self, progress: &Progress) -> Option<HaltReason> {
-        let Halt { time, samples_per_pixel, .. } = self.halt;
+    fn why_end(&self, elapsed: Duration) -> Option<HaltReason> {
         let failure = self.own.as_ref().and_then(|own| own.ended.clone());
-        let has_all = || samples_per_pixel.is_some_and(|spp| progress.samples_per_pixel >= spp as f64);
-        let is_late = || time.is_some_and(|time| progress.elapsed >= time);
+        let is_late = || self.halt.time.is_some_and(|time| elapsed >= time);
         failure
             .or_else(|| is_interrupted().then_some(HaltReason::Stopped))
-            .or_else(|| has_all().then_some(HaltReason::Samples))
+            .or_else(|| self.has_enough(true).then_some(HaltReason::Samples))
             .or_else(|| is_late().then_some(HaltReason::Time))
+    }
+
+    /// Whether there are as many samples as were asked for, with those that slaves have still to send or without.
+    fn has_enough(&self, with_waiting: bool) -> bool {
+        self.halt.samples_per_pixel.is_some_and(|passes| {
+            let Status { size: [width, height], samples, waiting, .. } = self.master.status();
+            let wanted = u128::from(width) * u128::from(height) * u128::from(passes);
+            u128::from(samples) + u128::from(if with_waiting { waiting } else { 0 }) >= wanted
+        })
     }
 
     /// How far it is, with what has been rendered here and is not in the film yet.
@@ -328,9 +282,15 @@ impl Run {
         self.tell_events(console);
         let progress = self.progress();
         console.last_progress(&progress);
-        say_why(reason, &progress, console);
+        if *reason == HaltReason::Samples && !self.has_enough(false) {
+            console.warn(
+                "slaves that are gone had the last of the samples: go on with the film to have them all (-r)",
+            );
+        } else {
+            say_why(reason, &progress, console);
+        }
         let job = self.saver.job();
-        let film = self.master.copy();
+        let film = self.copy(console);
         let mut saved = job.save(&film);
         if let Some(record) = film.record
             && saved.written.contains(&job.paths.igi())
@@ -340,7 +300,7 @@ impl Run {
             self.see_off(console);
             self.master.close();
             // Somebody who was given up has come after all.
-            let film = self.master.copy();
+            let film = self.copy(console);
             if film.record.as_ref().is_some_and(|record| record.runs != runs) {
                 saved = job.save(&film);
             }

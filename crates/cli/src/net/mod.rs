@@ -1,6 +1,7 @@
 //! Rendering on many machines, from the command line.
 
 mod master;
+mod own;
 mod scene;
 mod slave;
 
@@ -20,7 +21,10 @@ use std::io::{ErrorKind, Write as _};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
+use std::time::Duration;
 
+/// How long Ctrl-C may go unnoticed on a master.
+const PULSE: Duration = Duration::from_millis(50);
 /// The variable that holds a key.
 const KEY: &str = "INDIGO_KEY";
 

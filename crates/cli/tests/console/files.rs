@@ -376,3 +376,32 @@ fn an_estimated_error_ends_a_render() {
     assert!(error.parse::<f64>().expect("a number") <= 5.0, "{last}");
     assert_eq!(bench.run(&["scene.igs", "-halterror", "-1"]).status, Some(2));
 }
+
+/// Two renders of one name would write over each other's film; by whatever path they are called.
+#[test]
+fn a_picture_is_one_renders_at_a_time() {
+    let bench = Workbench::new(&format!("{QUIET}<image_save_period>0.05</image_save_period>"));
+    let mut first = bench.start(&["scene.igs", "-o", "a.png", "-t", "1"]);
+    first.wait_for(&bench.path("a.png"));
+    let path = bench.path("a.png").display().to_string();
+    for name in ["a.png", "./a.png", &path] {
+        let second = bench.run(&["scene.igs", "-o", name, "-haltspp", "1"]);
+        assert_eq!(second.status, Some(1), "{second:?}");
+        assert!(
+            second.stderr.contains("another render writes") && second.stderr.contains("(-o)"),
+            "{second:?}"
+        );
+    }
+    assert_eq!(
+        bench.run(&["scene.igs", "-o", "b.png", "-haltspp", "1"]).status,
+        Some(0),
+        "another name is free"
+    );
+    first.0.kill().expect("a child of ours");
+    first.0.wait().expect("a child of ours");
+    assert_eq!(
+        bench.run(&["scene.igs", "-o", "a.png", "-haltspp", "1"]).status,
+        Some(0),
+        "and so is a dead one's"
+    );
+}

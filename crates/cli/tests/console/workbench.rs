@@ -37,11 +37,12 @@ impl Workbench {
         std::fs::write(self.path(name), text).expect("the test's own directory");
     }
 
-    /// Names of the files, sorted.
+    /// Names of the files, sorted, without the cache, which is elsewhere for users.
     pub fn files(&self) -> Vec<String> {
         let mut names: Vec<String> = std::fs::read_dir(&self.directory)
             .expect("the test's own directory")
             .map(|e| e.expect("an entry").file_name().to_string_lossy().into_owned())
+            .filter(|name| name != "cache")
             .collect();
         names.sort();
         names

@@ -50,7 +50,9 @@ pub fn samples_up_to(logs: &[Log], seed: u64, end: u64) -> u64 {
     }
     let (mut at, mut samples) = (0, 0);
     while at < end {
-        let piece = pieces.get(&at).unwrap_or_else(|| panic!("no log tells of unit {at} of seed {seed}"));
+        let piece = pieces.get(&at).unwrap_or_else(|| {
+            panic!("no log tells of unit {at} of seed {seed}, but {:?}", pieces.range(at..).next())
+        });
         assert!(piece.end <= end, "the film ends at {end}, within {piece:?}");
         (at, samples) = (piece.end, samples + piece.samples);
     }

@@ -102,7 +102,10 @@ fn a_working_master_dies_and_goes_on() {
 /// A halting condition ends the render, with what slaves had not sent yet.
 #[test]
 fn a_render_ends_at_its_number_of_samples() {
+    // So rarely that none is sent before: what slaves have rendered counts all the same.
     let mut farm = Farm::new("");
+    let scene = farm.text("scene.igs").replace("<frame_upload_period>0.4<", "<frame_upload_period>1000<");
+    farm.bench.write("scene.igs", &scene);
     farm.start_master("m", &["-haltspp", "200"]);
     let mut slaves = [farm.slave(1, farm.port), farm.slave(2, farm.port)];
     assert_eq!(farm.master.as_mut().map(super::workbench::Running::finish), Some(Some(0)));
@@ -118,6 +121,24 @@ fn a_render_ends_at_its_number_of_samples() {
         interrupt(slave);
         assert_eq!(slave.finish(), Some(0));
     }
+}
+
+/// A master that is started without the film that is there says so before it writes over it.
+#[test]
+fn a_film_is_not_written_over_without_a_word() {
+    let mut farm = Farm::new("");
+    farm.start_master("m", &[]);
+    let mut slave = farm.slave(1, farm.port);
+    farm.wait_for_uploads(1, 2);
+    farm.end_master();
+    farm.start_master("m", &[]);
+    farm.wait("master2.stderr", "the film a.igi will be written over; to go on with it, give -r a.igi, too");
+    farm.end_master();
+    farm.resume_master("m");
+    assert!(!farm.text("master3.stderr").contains("written over"), "it goes on");
+    farm.end_master();
+    interrupt(&slave);
+    assert_eq!(slave.finish(), Some(0));
 }
 
 /// Whatever way of rendering: layers of camera and light paths, and chains whose brightness is estimated by all machines

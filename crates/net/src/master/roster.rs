@@ -62,6 +62,8 @@ pub struct Slave {
     pub samples: u64,
     /// By its own account.
     pub samples_per_second: f64,
+    /// Samples that it has still to send, by its own account.
+    pub waiting: u64,
     /// Uploads that were added.
     pub uploads: u64,
     /// When the last of them came.
@@ -124,6 +126,7 @@ impl Roster {
             heard: now,
             samples: 0,
             samples_per_second: 0.0,
+            waiting: 0,
             uploads: 0,
             last_upload: None,
             errors: 0,
@@ -131,6 +134,8 @@ impl Roster {
         });
         slave.name = shown(name);
         (slave.peer, slave.threads, slave.presence, slave.heard) = (peer, threads, Presence::Loading, now);
+        // Some of what it told of last may have come since.
+        slave.waiting = 0;
         Ok(slave)
     }
 
@@ -201,6 +206,12 @@ impl Roster {
     /// What those that are there render, by their own account.
     pub fn samples_per_second(&self) -> f64 {
         self.slaves.values().map(|slave| slave.samples_per_second).sum()
+    }
+
+    /// Samples that those that are there have still to send, by their own account.
+    pub fn waiting(&self) -> u64 {
+        let there = self.slaves.values().filter(|slave| slave.presence.is_there());
+        there.fold(0, |sum, slave| sum.saturating_add(slave.waiting))
     }
 }
 

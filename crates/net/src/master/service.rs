@@ -73,12 +73,6 @@ fn failed(error: impl std::fmt::Display) -> Status {
     Status::internal(error.to_string())
 }
 
-/// What an upload holds.
-struct Upload {
-    samples: u64,
-    run: Run,
-}
-
 /// Counts an upload as long as it is under way.
 struct Busy<'a>(&'a Shared);
 
@@ -190,19 +184,12 @@ impl Farm for Service {
         let mut roster = self.shared.roster();
         let slave = roster.heard(&id, Instant::now());
         match result {
-            Ok((Upload { samples, run }, receipt)) => {
-                let name = slave.map_or_else(String::new, |slave| {
+            Ok((samples, receipt)) => {
+                if let Some(slave) = slave {
                     slave.samples += if receipt.is_repeated { 0 } else { samples };
                     slave.uploads += 1;
                     slave.last_upload = Some(slave.heard);
-                    slave.name.clone()
-                });
-                drop(roster);
-                self.shared.tell(if receipt.is_repeated {
-                    Event::Repeated { slave: name }
-                } else {
-                    Event::Added { slave: name, samples, bytes: start.bytes, run, missing: receipt.missing }
-                });
+                }
                 let Receipt { merged_end, durable_end, generation, .. } = receipt;
                 Ok(Response::new(UploadReply { merged_end, durable_end, generation }))
             }
@@ -230,6 +217,7 @@ impl Farm for Service {
             };
             let rate = report.samples_per_second;
             slave.samples_per_second = if rate.is_finite() { rate.clamp(0.0, FASTEST) } else { 0.0 };
+            slave.waiting = report.waiting_samples;
             slave.seed
         };
         let shared = Arc::clone(&self.shared);
@@ -250,14 +238,14 @@ impl Farm for Service {
 }
 
 impl Service {
-    /// Receives a parcel and adds it to the film; what it was, and what became of it.
+    /// Receives a parcel and adds it to the film; how many samples it had, and what became of it.
     async fn receive(
         &self,
         id: SlaveId,
         seed: u64,
         start: &UploadStart,
         mut stream: Streaming<UploadPart>,
-    ) -> Result<(Upload, Receipt), Status> {
+    ) -> Result<(u64, Receipt), Status> {
         let shared = &self.shared;
         let _busy = Busy::new(shared);
         if start.bytes > shared.parcel_limit {
@@ -281,25 +269,38 @@ impl Service {
             return Err(Status::data_loss("an upload is shorter than it says"));
         }
         let shared = Arc::clone(shared);
-        spawn_blocking(move || add(&shared, seed, &parcel)).await.map_err(failed)?
+        spawn_blocking(move || add(&shared, id, seed, &parcel)).await.map_err(failed)?
     }
 }
 
-/// Adds a parcel to the film.
-fn add(shared: &Shared, seed: u64, parcel: &[u8]) -> Result<(Upload, Receipt), Status> {
+/// Adds a parcel to the film, and tells of it before anybody can copy that: what a file has is told of, whatever happens then.
+fn add(shared: &Shared, id: SlaveId, seed: u64, parcel: &[u8]) -> Result<(u64, Receipt), Status> {
     let damaged = |error| Status::invalid_argument(format!("an upload is damaged: {error}"));
     let (size, expected) = (parcel_size(parcel).map_err(damaged)?, lock(&shared.ledger).size());
     if size != expected {
         return Err(Status::invalid_argument(format!("an upload is {size}, and the film is {expected}")));
     }
     let film = Parcel::open(parcel).map_err(damaged)?;
-    let receipt = shared
-        .ledger()
+    let samples = film.record().map_or(0, |record| record.samples);
+    // Before they are in the film, so that none is ever counted twice.
+    let name = shared.roster().heard(&id, Instant::now()).map(|slave| {
+        slave.waiting = slave.waiting.saturating_sub(samples);
+        slave.name.clone()
+    });
+    let mut ledger = shared.ledger();
+    let receipt = ledger
         .take(seed, &film)
         .map_err(|refusal: Refusal| Status::invalid_argument(format!("an upload is refused: {refusal}")))?;
-    let samples = film.record().map_or(0, |record| record.samples);
-    // Without a run it would have been refused.
-    Ok((Upload { samples, run: run_of(&film).unwrap_or(Run { seed, first: 0, end: 0 }) }, receipt))
+    let slave = name.unwrap_or_default();
+    shared.tell(if receipt.is_repeated {
+        Event::Repeated { slave }
+    } else {
+        // Without a run it would have been refused.
+        let run = run_of(&film).unwrap_or(Run { seed, first: 0, end: 0 });
+        Event::Added { slave, samples, bytes: parcel.len() as u64, run, missing: receipt.missing }
+    });
+    drop(ledger);
+    Ok((samples, receipt))
 }
 
 /// The next part of an upload, within a time.

@@ -17,6 +17,8 @@ pub struct Status {
     pub samples: u64,
     /// The same per pixel.
     pub samples_per_pixel: f64,
+    /// Samples that slaves have still to send, by their own account.
+    pub waiting: u64,
     /// What slaves render, by their own account, and a working master.
     pub samples_per_second: f64,
     /// Since the master was started.
@@ -76,23 +78,27 @@ pub struct SlaveStatus {
 impl Status {
     pub(super) fn of(shared: &Shared) -> Self {
         let now = Instant::now();
-        let (slaves, samples_per_second, present) = {
-            let roster = shared.roster();
-            (roster.all(), roster.samples_per_second(), roster.present())
-        };
-        let refused = lock(&shared.refusals).total();
         let own = *lock(&shared.own);
         let (own_rate, pending) = own.map_or((0.0, 0), |own| (own.samples_per_second, own.pending));
-        let ledger = shared.ledger();
-        let size = ledger.size();
+        // Before what waits: what comes in between would else be counted twice.
+        let (size, samples, rendered_s) = {
+            let ledger = shared.ledger();
+            (ledger.size(), ledger.record().samples + pending, ledger.record().elapsed_s)
+        };
+        let (slaves, samples_per_second, present, waiting) = {
+            let roster = shared.roster();
+            (roster.all(), roster.samples_per_second(), roster.present(), roster.waiting())
+        };
+        let refused = lock(&shared.refusals).total();
         Self {
             scene: shared.scene.name.clone(),
             size: [size.width(), size.height()],
-            samples: ledger.record().samples + pending,
-            samples_per_pixel: (ledger.record().samples + pending) as f64 / size.pixels() as f64,
+            samples,
+            samples_per_pixel: samples as f64 / size.pixels() as f64,
+            waiting,
             samples_per_second: samples_per_second + own_rate,
             elapsed: now - shared.started,
-            rendered_s: ledger.record().elapsed_s,
+            rendered_s,
             bytes_received: shared.bytes_received.load(Ordering::Relaxed),
             refused,
             present,

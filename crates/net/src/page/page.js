@@ -23,10 +23,9 @@ function bytes(value) {
 function time(seconds) {
   const s = Math.floor(seconds);
   const two = (n) => String(n).padStart(2, "0");
-  const clock = two(Math.floor(s / 60) % 60) + ":" + two(s % 60);
-  if (s < 3600) return clock;
-  const hours = Math.floor(s / 3600);
-  return hours < 48 ? hours + ":" + clock : Math.floor(hours / 24) + " d " + (hours % 24) + " h";
+  const [hours, minutes] = [Math.floor(s / 3600), Math.floor(s / 60) % 60];
+  if (hours >= 48) return Math.floor(hours / 24) + " d " + (hours % 24) + " h";
+  return hours ? hours + ":" + two(minutes) + ":" + two(s % 60) : minutes + ":" + two(s % 60);
 }
 
 function ago(seconds) {

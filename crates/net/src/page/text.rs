@@ -19,13 +19,15 @@ pub fn json(status: &Status, picture_version: u64) -> String {
         },
     );
     format!(
-        "{{\"scene\":{},\"width\":{},\"height\":{},\"samples\":{},\"samples_per_pixel\":{},\"samples_per_second\":{},\
+        "{{\"scene\":{},\"width\":{},\"height\":{},\"samples\":{},\"waiting_samples\":{},\"samples_per_pixel\":{},\
+         \"samples_per_second\":{},\
          \"elapsed_s\":{},\"rendered_s\":{},\"bytes_received\":{},\"refused\":{},\"present\":{},\"picture\":{},\
          \"own\":{own},\"slaves\":[{}]}}\n",
         quoted(&status.scene),
         status.size[0],
         status.size[1],
         status.samples,
+        status.waiting,
         number(status.samples_per_pixel),
         number(status.samples_per_second),
         seconds(status.elapsed),
@@ -134,6 +136,7 @@ mod tests {
             samples: 5000,
             samples_per_pixel: 0.5,
             samples_per_second: f64::NAN,
+            waiting: 70,
             elapsed: Duration::from_secs(100),
             rendered_s: 700.0,
             bytes_received: 12,
@@ -149,7 +152,7 @@ mod tests {
         let json = json(&status(), 77);
         for part in [
             r#""scene":"a \"b\".igs""#,
-            r#""samples":5000"#,
+            r#""samples":5000,"waiting_samples":70,"#,
             r#""samples_per_second":null"#,
             r#""picture":77"#,
             r#""state":"left""#,

@@ -27,6 +27,8 @@ pub struct Engine {
     commands: Option<Sender<Command>>,
     seen: Arc<Mutex<Seen>>,
     has_ended: Cell<bool>,
+    /// Samples that had been rendered when the film was last taken.
+    taken_at: Cell<u64>,
     thread: Option<JoinHandle<()>>,
 }
 
@@ -51,7 +53,13 @@ impl Engine {
         let thread = std::thread::Builder::new()
             .name("session".to_owned())
             .spawn(move || run(&mut session, &program, &asked, &shown))?;
-        Ok(Self { commands: Some(commands), seen, has_ended: Cell::new(false), thread: Some(thread) })
+        Ok(Self {
+            commands: Some(commands),
+            seen,
+            has_ended: Cell::new(false),
+            taken_at: Cell::new(0),
+            thread: Some(thread),
+        })
     }
 
     /// How it stands.
@@ -61,7 +69,20 @@ impl Engine {
 
     /// What has been rendered since the last time, if anything.
     pub async fn drain(&self) -> Option<SavedFilm> {
-        self.ask(Command::Drain).await
+        let film = self.ask(Command::Drain).await;
+        if film.is_some() {
+            self.taken_at.set(self.samples());
+        }
+        film
+    }
+
+    fn samples(&self) -> u64 {
+        self.seen().progress.map_or(0, |progress| progress.samples)
+    }
+
+    /// Samples that were rendered after the film was last taken. Workers may have held back some that are older.
+    pub fn untaken(&self) -> u64 {
+        if self.has_ended() { 0 } else { self.samples().saturating_sub(self.taken_at.get()) }
     }
 
     /// Ends it; the last of what it has rendered.

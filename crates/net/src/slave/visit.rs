@@ -301,6 +301,7 @@ impl Life {
             state: state.into(),
             samples: progress.map_or(0, |p| p.samples),
             samples_per_second: progress.map_or(0.0, |p| p.samples_per_second),
+            waiting_samples: self.work.as_ref().map_or(0, Work::waiting_samples),
         }))
         .await?;
         if let Some(work) = &mut self.work {

@@ -37,6 +37,11 @@ impl Work {
         Ok(Self { scene, record, engine, outbox: Outbox::default() })
     }
 
+    /// Samples that are still to be sent.
+    pub fn waiting_samples(&self) -> u64 {
+        self.engine.untaken() + self.outbox.waiting_samples()
+    }
+
     /// Renders on, behind what there is, if the session was told to end by a master that is no more; whether it was.
     ///
     /// # Errors
