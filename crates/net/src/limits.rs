@@ -46,6 +46,8 @@ pub const ANSWER: Duration = Duration::from_secs(30);
 pub const UPLOAD: Duration = Duration::from_mins(30);
 /// Time between a slave's reports.
 pub const REPORTS: Duration = Duration::from_secs(2);
+/// The same when a number of samples is about to be reached: what is rendered between two of them may be too many.
+pub const REPORTS_NEAR_END: Duration = Duration::from_millis(100);
 
 /// The most bytes of a parcel of a film: of 40 bytes of a pixel of the master's film, sums take half in single precision and
 /// counts what they take, 24 in all; and something more, since what cannot be compressed grows by half a percent, and for the

@@ -197,10 +197,19 @@ fn what_waits_is_counted_until_it_is_in_the_film() {
     // More than it has told of.
     bench.send(&mut client, parcel(&film(5, 9))).unwrap();
     assert_eq!(waits(&bench), (9, 0));
-    bench.runtime.block_on(client.report(ReportRequest { waiting_samples: u64::MAX, ..report })).unwrap();
+    bench
+        .runtime
+        .block_on(client.report(ReportRequest { waiting_samples: u64::MAX, ..report.clone() }))
+        .unwrap();
     assert_eq!(waits(&bench), (9, u64::MAX));
     let _again = bench.join();
     assert_eq!(waits(&bench), (9, 0), "what it has told of may have come");
+    let period = |client: &mut FarmClient<Channel>| {
+        bench.runtime.block_on(client.report(report.clone())).unwrap().into_inner().report_period_s
+    };
+    assert_eq!(period(&mut client), None);
+    bench.master.tell_near_end(true);
+    assert_eq!(period(&mut client), Some(0.1));
 }
 
 #[test]

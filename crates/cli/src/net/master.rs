@@ -15,7 +15,7 @@ use indigo_front::status::{BAD_INPUT, FAILED, RENDERED};
 use indigo_front::{packs, paths, program};
 use indigo_net::event::Event;
 use indigo_net::ledger::Refusal;
-use indigo_net::limits::{PORT, SETTINGS};
+use indigo_net::limits::{PORT, REPORTS, SETTINGS};
 use indigo_net::master::{Master, SceneParcel, Setup, Status};
 use indigo_render::disk::read_limited;
 use indigo_render::memory::check_master;
@@ -27,6 +27,9 @@ use std::sync::Arc;
 use std::sync::mpsc::Receiver;
 use std::time::{Duration, Instant};
 
+/// When slaves are to report often, so that they do not render much more than is wanted: they hear of it by a report of the
+/// usual time, and the estimate is rough.
+const NEAR_END: Duration = Duration::from_secs(3 * REPORTS.as_secs());
 /// How long slaves have, at the end, to begin sending what they have.
 const GRACE: Duration = Duration::from_secs(20);
 /// How long they have in all, if they do.
@@ -178,8 +181,12 @@ impl Run {
                 console.progress_of(&progress, &self.company());
             }
             self.save(console);
+            // It may be near as long as nobody has said how fast it comes.
+            let is_near_end =
+                progress.samples_per_second == 0.0 || progress.left.is_some_and(|left| left < NEAR_END);
+            self.master.tell_near_end(is_near_end && self.halt.samples_per_pixel.is_some());
             if let Some(reason) = self.why_end(progress.elapsed) {
-                return self.finish(&reason, console);
+                return self.finish(&reason, progress.elapsed, console);
             }
         }
     }
@@ -244,9 +251,9 @@ impl Run {
         let (samples, samples_per_second) = (status.samples, status.samples_per_second);
         let elapsed = self.started.elapsed();
         let by_samples = self.halt.samples_per_pixel.map(|spp| {
-            let wanted = spp as f64 * pixels;
-            let left = (wanted - samples as f64).max(0.0) / samples_per_second;
-            (samples as f64 / wanted.max(1.0), if left.is_finite() { left } else { f64::MAX })
+            let (wanted, rendered) = (spp as f64 * pixels, samples as f64 + status.waiting as f64);
+            let left = (wanted - rendered).max(0.0) / samples_per_second;
+            (rendered / wanted.max(1.0), if left.is_finite() { left } else { f64::MAX })
         });
         let by_time = self.halt.time.map(|time| {
             (elapsed.as_secs_f64() / time.as_secs_f64(), time.saturating_sub(elapsed).as_secs_f64())
@@ -270,7 +277,7 @@ impl Run {
     }
 
     /// Gathers the last of what there is, and saves it; the exit status.
-    fn finish(mut self, reason: &HaltReason, console: &mut Console) -> u8 {
+    fn finish(mut self, reason: &HaltReason, elapsed: Duration, console: &mut Console) -> u8 {
         let program = self.saver.job().version.clone();
         self.master.begin_end();
         let added = self.own.as_mut().map_or(Ok(None), |own| own.end(&self.master, &program));
@@ -287,7 +294,8 @@ impl Run {
                 "slaves that are gone had the last of the samples: go on with the film to have them all (-r)",
             );
         } else {
-            say_why(reason, &progress, console);
+            // The last of the slaves' samples are counted, and the time that they took to come is not.
+            say_why(reason, &Progress { elapsed, ..progress }, console);
         }
         let job = self.saver.job();
         let film = self.copy(console);

@@ -108,6 +108,7 @@ struct Shared {
     own_seed: Option<u64>,
     own: Mutex<Option<OwnStatus>>,
     is_ending: AtomicBool,
+    is_near_end: AtomicBool,
     /// Uploads that are being received or added.
     busy: AtomicU64,
     bytes_received: AtomicU64,
@@ -182,6 +183,7 @@ impl Master {
             own_seed,
             own: Mutex::default(),
             is_ending: AtomicBool::new(false),
+            is_near_end: AtomicBool::new(false),
             busy: AtomicU64::new(0),
             bytes_received: AtomicU64::new(0),
             started: Instant::now(),
@@ -254,6 +256,11 @@ impl Master {
     /// How things stand.
     pub fn status(&self) -> Status {
         Status::of(&self.shared)
+    }
+
+    /// Whether the end is so near that slaves are to report often.
+    pub fn tell_near_end(&self, is_near: bool) {
+        self.shared.is_near_end.store(is_near, Ordering::Relaxed);
     }
 
     /// Asks all slaves for the last of what they have. They leave when [`saved`](Self::saved) has told that it is in a file.

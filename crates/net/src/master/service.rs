@@ -5,7 +5,7 @@ use super::roster::{Introduction, Presence, SlaveId};
 use super::{Shared, lock};
 use crate::event::Event;
 use crate::ledger::{Receipt, Refusal, run_of};
-use crate::limits::{PIECE, PROTOCOL, REPORTS, SILENCE};
+use crate::limits::{PIECE, PROTOCOL, REPORTS, REPORTS_NEAR_END, SILENCE};
 use crate::proto::farm_server::Farm;
 use crate::proto::report_reply::Order;
 use crate::proto::report_request::State;
@@ -224,7 +224,9 @@ impl Farm for Service {
         let (_, durable_end) = spawn_blocking(move || shared.ledger().ends(seed)).await.map_err(failed)?;
         let is_ending = self.shared.is_ending.load(Ordering::Relaxed);
         let order = if is_ending { Order::Finish } else { Order::GoOn };
-        Ok(Response::new(ReportReply { durable_end, order: order.into() }))
+        let is_near_end = self.shared.is_near_end.load(Ordering::Relaxed);
+        let report_period_s = is_near_end.then(|| REPORTS_NEAR_END.as_secs_f64());
+        Ok(Response::new(ReportReply { durable_end, order: order.into(), report_period_s }))
     }
 
     async fn leave(&self, request: Request<LeaveRequest>) -> Result<Response<LeaveReply>, Status> {

@@ -26,7 +26,7 @@ use std::net::SocketAddr;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 use tokio::sync::watch;
-use tokio::time::{Instant, MissedTickBehavior, interval, sleep, timeout};
+use tokio::time::{Instant, interval, sleep, timeout};
 use tonic::Status;
 
 /// The shortest and the longest time between reports that a slave keeps to, whatever a master asks for, in seconds.
@@ -241,22 +241,23 @@ impl Life {
 
     /// Renders for the master until something ends that.
     async fn stay(&mut self, client: &mut Client, reply: &JoinReply) -> Result<Outcome, Outcome> {
-        let mut reports = interval(period(reply.report_period_s, REPORTS));
-        reports.set_missed_tick_behavior(MissedTickBehavior::Delay);
-        let period = period(reply.upload_period_s, UPLOADS);
+        let usual = period(reply.report_period_s, REPORTS);
+        let mut next_report = Instant::now();
+        let between_uploads = period(reply.upload_period_s, UPLOADS);
         // What was not sent over the last connection is sent first.
         let has_rest = self.work.as_ref().is_some_and(|work| work.outbox.next().is_some());
-        let mut next = Instant::now() + if has_rest { Duration::ZERO } else { period };
+        let mut next = Instant::now() + if has_rest { Duration::ZERO } else { between_uploads };
         let mut stopped = self.stopped.clone();
         loop {
             let outcome = tokio::select! {
                 _ = stopped.wait_for(|stopped| *stopped) => Some(Outcome::Stopped),
-                _ = reports.tick() => match self.report(client).await?.order() {
-                    Order::Finish => Some(Outcome::Finished),
-                    Order::GoOn => None,
-                },
+                () = tokio::time::sleep_until(next_report) => {
+                    let reply = self.report(client).await?;
+                    next_report = Instant::now() + reply.report_period_s.map_or(usual, |wanted| period(wanted, REPORTS));
+                    (reply.order() == Order::Finish).then_some(Outcome::Finished)
+                }
                 () = tokio::time::sleep_until(next) => {
-                    next = Instant::now() + period;
+                    next = Instant::now() + between_uploads;
                     self.send(client, false).await?;
                     None
                 }
