@@ -13,6 +13,7 @@ mod documents;
 mod fuzz;
 mod generate;
 mod media_library;
+mod soak;
 mod stages;
 mod tidy;
 mod validate;
@@ -85,6 +86,12 @@ const COMMANDS: &[Command] = &[
         arguments: "[SECONDS | --cases N] [TARGET]",
         about: "feed damaged files to every reader, SECONDS (60) or N cases each target",
         run: fuzz::run,
+    },
+    Command {
+        name: "soak",
+        arguments: "",
+        about: "a network render of many machines through a long night of failures: some minutes",
+        run: soak::run,
     },
     Command {
         name: "doc",

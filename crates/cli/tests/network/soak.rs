@@ -117,7 +117,7 @@ fn a_short_night() {
     soak(8, 1);
 }
 
-/// Some minutes. `cargo xtask test --soak`
+/// Some minutes. `cargo xtask soak`
 #[test]
 #[ignore = "takes minutes"]
 fn a_long_night() {
