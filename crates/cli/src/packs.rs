@@ -62,6 +62,9 @@ pub fn pack(arguments: &Arguments, console: &mut Console) -> u8 {
 /// Unpacks a packed scene into a folder that is not there yet, or empty; the exit status.
 pub fn unpack(arguments: &Arguments, console: &mut Console) -> u8 {
     let [path, folder] = &arguments.files[..] else { return refuse("two names are expected", console) };
+    if folder.is_empty() {
+        return refuse("the name of the folder to make is empty", console);
+    }
     let opened = read_limited(Path::new(path))
         .map_err(|error| error.to_string())
         .and_then(|bytes| Pack::open(bytes.into(), &PackLimits::default()).map_err(|e| e.to_string()));
@@ -119,7 +122,16 @@ fn unpack_as_a_whole(pack: &Pack, folder: &Path) -> std::io::Result<()> {
     if let Some(above) = folder.parent() {
         std::fs::create_dir_all(above).map_err(at(above))?;
     }
-    std::fs::create_dir(unfinished).map_err(at(unfinished))?;
+    std::fs::create_dir(unfinished).map_err(|error| match error.kind() {
+        ErrorKind::AlreadyExists => Error::new(
+            ErrorKind::AlreadyExists,
+            format!(
+                "{} is there: another is unpacking, or was killed; in that case remove it",
+                unfinished.display()
+            ),
+        ),
+        _ => at(unfinished)(error),
+    })?;
     end_in_order();
     let written = pack.members().try_for_each(|(name, _)| {
         if is_interrupted() {

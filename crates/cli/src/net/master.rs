@@ -1,7 +1,7 @@
 //! `-n m` and `-n wm`.
 
 use super::own::Own;
-use super::{PULSE, events, fail, key};
+use super::{PULSE, events, fail, key, machine};
 use crate::claim::Claim;
 use crate::console::Console;
 use crate::interrupts::{end_in_order, is_interrupted};
@@ -17,11 +17,13 @@ use indigo_net::event::Event;
 use indigo_net::ledger::Refusal;
 use indigo_net::limits::{PORT, REPORTS, SETTINGS};
 use indigo_net::master::{Master, SceneParcel, Setup, Status};
+use indigo_net::slave::written;
 use indigo_render::disk::read_limited;
 use indigo_render::memory::check_master;
 use indigo_render::saved::blank_film;
 use indigo_render::{Halt, HaltReason, Progress};
 use indigo_scene::Scene;
+use std::net::SocketAddr;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::Receiver;
@@ -103,7 +105,9 @@ pub fn master(
         Err(error) => return fail(&error, console),
     };
     say_where(&master, is_open, console);
-    say_page(&master, console);
+    if let Some(page) = master.page() {
+        console.say(&about_page(page, &machine()));
+    }
     let own = match arguments.network {
         Some(Role::WorkingMaster) => match Own::start(scene, options, own_seed, &master) {
             Ok(own) => Some(own),
@@ -143,11 +147,14 @@ fn say_where(master: &Master, is_open: bool, console: &mut Console) {
     }
 }
 
-/// Says where people can look.
-fn say_page(master: &Master, console: &mut Console) {
-    if let Some(page) = master.page() {
-        console.say(&format!("How things stand is shown at http://{page}/"));
+/// Where people can look, and who can.
+fn about_page(page: SocketAddr, machine: &str) -> String {
+    if page.ip().is_loopback() {
+        return format!("How things stand is shown at http://{page}/");
     }
+    let host = if page.ip().is_unspecified() { machine.to_owned() } else { page.ip().to_string() };
+    let place = written(&host, page.port());
+    format!("How things stand is shown to everybody who reaches this machine, at http://{place}/")
 }
 
 /// Says what became of what was rendered here.
@@ -355,6 +362,26 @@ impl Run {
     fn tell_events(&self, console: &mut Console) {
         for event in self.events.try_iter() {
             console.event(&event);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::about_page;
+
+    #[test]
+    fn the_page_is_told_by_an_address_that_can_be_opened() {
+        let told = |address: &str| about_page(address.parse().expect("an address"), "lust");
+        assert!(told("127.0.0.1:80").ends_with("shown at http://127.0.0.1:80/"));
+        for (address, place) in [
+            ("0.0.0.0:8080", "http://lust:8080/"),
+            ("[::]:8080", "http://lust:8080/"),
+            ("10.0.0.1:80", "http://10.0.0.1:80/"),
+            ("[2001:db8::1]:80", "http://[2001:db8::1]:80/"),
+        ] {
+            let said = told(address);
+            assert!(said.contains("everybody") && said.ends_with(place), "{said}");
         }
     }
 }

@@ -51,7 +51,7 @@ pub fn make_key(path: &Path, console: &mut Console) -> u8 {
             console.say(&format!(
                 "Saved {0}: copy it to all machines of the render by a way that nobody else sees, and give it to master and \
                  slaves by --key-file {0}",
-                path.display()
+                in_shell(path)
             ));
             RENDERED
         }
@@ -67,6 +67,23 @@ pub fn make_key(path: &Path, console: &mut Console) -> u8 {
             FAILED
         }
     }
+}
+
+/// A path as it can be copied into a shell.
+fn in_shell(path: &Path) -> String {
+    let path = path.display().to_string();
+    if path.contains([' ', '&', '(', ')', ';']) { format!("\"{path}\"") } else { path }
+}
+
+/// What people call this machine.
+fn machine() -> String {
+    let from_system = std::fs::read_to_string("/proc/sys/kernel/hostname").ok();
+    let named = ["HOSTNAME", "COMPUTERNAME"].into_iter().find_map(|name| std::env::var(name).ok());
+    from_system
+        .or(named)
+        .map(|name| name.trim().to_owned())
+        .filter(|name| !name.is_empty())
+        .unwrap_or_default()
 }
 
 /// The shared key, if there is one.

@@ -1,7 +1,7 @@
 //! `-n s`.
 
 use super::scene::SceneLoader;
-use super::{events, fail, key};
+use super::{events, fail, key, machine};
 use crate::console::Console;
 use crate::interrupts::{end_in_order, is_interrupted};
 use indigo_front::flags::Arguments;
@@ -87,15 +87,4 @@ pub fn slave(arguments: &Arguments, console: &mut Console) -> u8 {
             FAILED
         }
     }
-}
-
-/// What people call this machine.
-fn machine() -> String {
-    let from_system = std::fs::read_to_string("/proc/sys/kernel/hostname").ok();
-    let named = ["HOSTNAME", "COMPUTERNAME"].into_iter().find_map(|name| std::env::var(name).ok());
-    from_system
-        .or(named)
-        .map(|name| name.trim().to_owned())
-        .filter(|name| !name.is_empty())
-        .unwrap_or_default()
 }

@@ -85,6 +85,14 @@ fn an_unpacked_scene_renders_and_keeps_its_text() {
     let again = bench.run(&["--unpack", "out.pigs", "there/new"]);
     assert_eq!(again.status, Some(2), "{again:?}");
     assert!(again.stderr.contains("is not empty"), "{}", again.stderr);
+    // What a killed one has left is told, with what to do.
+    std::fs::create_dir(bench.path("more.unpacking")).expect("a folder");
+    let blocked = bench.run(&["--unpack", "out.pigs", "more"]);
+    assert_eq!(blocked.status, Some(1), "{blocked:?}");
+    assert!(blocked.stderr.contains("more.unpacking is there") && blocked.stderr.contains("remove it"));
+    let nameless = bench.run(&["--unpack", "out.pigs", ""]);
+    assert_eq!(nameless.status, Some(2), "{nameless:?}");
+    assert!(nameless.stderr.contains("the name of the folder to make is empty"), "{nameless:?}");
 }
 
 #[test]

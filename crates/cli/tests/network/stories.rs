@@ -230,6 +230,8 @@ fn without_the_key_there_is_no_joining() {
     // No key, no network.
     let ran = farm.bench.run(&["-n", "s", "-h", "192.0.2.1", "-halt", "1"]);
     assert!(ran.stderr.contains("--make-key FILE"), "{ran:?}");
+    let spaced = farm.bench.run(&["--make-key", "the key"]);
+    assert!(spaced.stderr.contains("by --key-file \"the key\"\n"), "to be copied: {spaced:?}");
     // A key is never written over.
     let again = farm.bench.run(&["--make-key", "key"]);
     assert_eq!(again.status, Some(1), "{again:?}");

@@ -7,7 +7,7 @@ pub(crate) mod fetch;
 mod visit;
 mod work;
 
-pub use connect::{Connector, host_and_port};
+pub use connect::{Connector, host_and_port, written};
 pub use fetch::SceneFiles;
 
 use crate::NetError;
