@@ -124,11 +124,13 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Arguments,
             (None, None) => String::new(),
             (None, Some(_)) => return Err(format!("-{} takes no value", flag.name)),
             (Some(_), Some(value)) => value,
-            (Some(what), None) => rest
-                .next()
-                .and_then(|v| v.into_string().ok())
-                .filter(|v| !is_option(v))
-                .ok_or_else(|| format!("-{} needs a value: -{} {what}", flag.name, flag.name))?,
+            (Some(what), None) => {
+                rest.next().and_then(|v| v.into_string().ok()).filter(|v| !is_option(v)).ok_or_else(|| {
+                    // Elsewhere it is what asks for help.
+                    let help = if flag.name == "h" { "; help is --help" } else { "" };
+                    format!("-{} needs a value: -{} {what}{help}", flag.name, flag.name)
+                })?
+            }
         };
         parsed.given.push(flag.name);
         apply(flag, value, &mut parsed)?;

@@ -123,6 +123,27 @@ fn a_render_ends_at_its_number_of_samples() {
     }
 }
 
+/// Samples that were counted on, and are gone with their slave, are not passed over in silence.
+#[test]
+fn who_dies_at_the_end_is_missed() {
+    let mut farm = Farm::new("");
+    let scene = farm.text("scene.igs").replace("<frame_upload_period>0.4<", "<frame_upload_period>1000<");
+    farm.bench.write("scene.igs", &scene);
+    farm.start_master("m", &["-haltspp", "50"]);
+    // So slow that the slave is killed in the midst of its upload.
+    let proxy = Proxy::to(farm.port);
+    proxy.slow(Duration::ZERO, 4_000);
+    let mut slave = farm.slave(1, proxy.port);
+    farm.wait("master1.stderr", "Waiting for the last of 1 slave");
+    kill(&mut slave);
+    proxy.cut();
+    assert_eq!(farm.master.as_mut().map(super::workbench::Running::finish), Some(Some(0)));
+    let said = farm.text("master1.stderr");
+    assert!(said.contains("slaves that are gone had the last of the samples"), "{said}");
+    assert!(!said.contains("Halted"), "{said}");
+    assert_eq!(farm.film().record.expect("ours").samples, 0);
+}
+
 /// A master that is started without the film that is there says so before it writes over it.
 #[test]
 fn a_film_is_not_written_over_without_a_word() {

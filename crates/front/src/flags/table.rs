@@ -104,7 +104,7 @@ pub static FLAGS: &[Flag] = &[
         "haltspp",
         Some("N"),
         Action::Setting("-haltspp", "halt_samples_per_pixel"),
-        "Stop at this number of samples per pixel, or a little above it.",
+        "Stop at this number of samples per pixel: exactly, where a render of independent samples begins. Metropolis rounds it up to some thousand mutations, a film that is gone on with to whole passes, and many machines to what they render in a fraction of a second.",
     ),
     flag(
         "halterror",

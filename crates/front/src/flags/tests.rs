@@ -28,6 +28,7 @@ fn mistakes_get_a_helpful_answer() {
     let error = |words: &[&str]| parsed(words).unwrap_err();
     assert_eq!(error(&["-haltsp", "3"]), "unknown option -haltsp; did you mean -haltspp?");
     assert_eq!(error(&["-halt"]), "-halt needs a value: -halt SECONDS");
+    assert_eq!(error(&["-h"]), "-h needs a value: -h HOST:PORT; help is --help");
     assert_eq!(
         error(&["a.igs", "b.igs"]),
         "two scenes are given, a.igs and b.igs; one is rendered at a time"
