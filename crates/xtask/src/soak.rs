@@ -9,6 +9,7 @@ pub fn run(arguments: &[String]) -> Outcome {
     if !arguments.is_empty() {
         return Err("usage: cargo xtask soak".into());
     }
-    let test = ["test", "--package", "indigo-cli", "--test", "network", "a_long_night"];
+    // From the whole workspace, so that no library is built once more with fewer features.
+    let test = ["test", "--workspace", "--test", "network", "a_long_night"];
     process::run(process::cargo(&test).args(["--", "--ignored", "--nocapture"]))
 }
