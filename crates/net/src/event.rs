@@ -6,7 +6,8 @@ use std::net::SocketAddr;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// Takes events, from any thread, without taking long.
+/// Takes events, from any thread, without taking long. It asks nothing of the master or slave that tells, whose film may be locked
+/// meanwhile.
 pub type Sink = Arc<dyn Fn(Event) + Send + Sync>;
 
 /// How much an event matters.
