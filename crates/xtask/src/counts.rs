@@ -11,7 +11,7 @@ use serde_json::{Map, Value, json};
 
 use crate::Outcome;
 use crate::apt::Needed;
-use crate::process::{capture, cargo, command, root, target_dir};
+use crate::process::{self, capture, cargo, command, root, target_dir};
 
 const USAGE: &str = "usage: cargo xtask counts [--update WHY] [KERNEL]";
 const VALGRIND: Needed =
@@ -60,26 +60,12 @@ pub fn run_command(arguments: &[String]) -> Outcome {
 
 /// Builds the kernels in a folder of their own, since they are built for another processor.
 fn build() -> Result<PathBuf, String> {
-    let arguments = [
-        "bench",
-        "--no-run",
-        "--package",
-        "indigo-transport",
-        "--bench",
-        "counts",
-        "--message-format",
-        "json",
-    ];
-    let mut build = cargo(&arguments);
-    build
+    let arguments = ["bench", "--no-run", "--package", "indigo-transport", "--bench", "counts"];
+    let mut bench = cargo(&arguments);
+    bench
         .env("CARGO_TARGET_DIR", target_dir().join("counts"))
         .env("RUSTFLAGS", format!("-Ctarget-cpu={PROCESSOR}"));
-    let said = capture(&mut build)?;
-    let messages = said.split(|&b| b == b'\n').filter_map(|line| serde_json::from_slice::<Value>(line).ok());
-    let program = messages
-        .filter(|m| m["target"]["name"] == "counts")
-        .find_map(|m| Some(m["executable"].as_str()?.into()));
-    program.ok_or_else(|| "cargo does not tell where the kernels are".into())
+    process::build(&mut bench, "counts")
 }
 
 fn count(program: &Path, kernel: &str) -> Result<u64, String> {

@@ -1,14 +1,11 @@
 //! Tests of the window, with a display for machines that have none: Xvfb, and Mesa drawing without a graphics card.
 
 use std::io::{BufRead, BufReader};
-use std::process::{Child, Stdio};
+use std::process::{Child, Command, Stdio};
 
 use crate::apt::Needed;
-use crate::process::{cargo, command, root, run};
-use crate::{Outcome, venv};
+use crate::process::command;
 
-/// The crate of the window.
-pub const WINDOW: &str = "indigo-gui";
 /// A display without a screen, drivers that draw without a graphics card, and the libraries that the window looks for
 /// when it starts.
 const DISPLAY: Needed = Needed {
@@ -29,30 +26,24 @@ const DISPLAY: Needed = Needed {
 /// Wide enough for the window with all its panels.
 const SCREEN: &str = "1920x1200x24";
 
-/// Whether there is a window to be tested.
-pub fn has_window() -> bool {
-    root().join("crates/gui").is_dir()
-}
-
-/// Runs the window's tests, all or those whose name holds `filter`. Linux gets a display of its own, so that no window opens on
-/// the desktop and nobody's mouse disturbs; elsewhere the desktop serves.
+/// A display for the tests of a command, and the environment by which they find it. Linux gets one of its own, so that no window
+/// opens on the desktop and nobody's mouse disturbs; elsewhere the desktop serves.
 ///
 /// # Errors
-/// What is not installed and cannot be, or which tests fail.
-pub fn tests(filter: Option<&str>) -> Outcome {
-    let mut tests = cargo(&["test", "--no-fail-fast", "--package", WINDOW]);
-    tests.args(filter).env(venv::TEST_PYTHON, venv::for_tests()?);
+/// What is not installed and cannot be.
+pub fn for_tests(tests: &mut Command) -> Result<Option<Display>, String> {
     if !cfg!(target_os = "linux") {
-        return run(&mut tests);
+        return Ok(None);
     }
     DISPLAY.ensure()?;
     let display = Display::start()?;
     tests.env("DISPLAY", &display.name).env_remove("WAYLAND_DISPLAY");
-    run(tests.env("LIBGL_ALWAYS_SOFTWARE", "1").env("WINIT_UNIX_BACKEND", "x11"))
+    tests.env("LIBGL_ALWAYS_SOFTWARE", "1").env("WINIT_UNIX_BACKEND", "x11");
+    Ok(Some(display))
 }
 
 /// A display without a screen, which goes when this does.
-struct Display {
+pub struct Display {
     server: Child,
     /// What `DISPLAY` must be.
     name: String,

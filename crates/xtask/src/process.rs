@@ -4,6 +4,8 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use serde_json::Value;
+
 /// The repository's root: two levels above this crate.
 pub fn root() -> PathBuf {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -54,6 +56,19 @@ pub fn capture(command: &mut Command) -> Result<Vec<u8>, String> {
     } else {
         Err(format!("`{shown}` ended with {}", output.status))
     }
+}
+
+/// Has cargo build something, and gives back where the program of a name is: that of a bench or an example.
+///
+/// # Errors
+/// As those of [`run`]; and that there is no such program.
+pub fn build(cargo: &mut Command, name: &str) -> Result<PathBuf, String> {
+    let said = capture(cargo.args(["--message-format", "json-render-diagnostics"]))?;
+    let messages = said.split(|&b| b == b'\n').filter_map(|line| serde_json::from_slice::<Value>(line).ok());
+    let program = messages
+        .filter(|message| message["target"]["name"] == name)
+        .find_map(|message| Some(message["executable"].as_str()?.into()));
+    program.ok_or_else(|| format!("cargo does not tell where `{name}` is"))
 }
 
 /// The command as one would type it.

@@ -1,6 +1,5 @@
 //! `cargo xtask test` and the stages it is made of.
 
-use std::path::Path;
 use std::time::{Duration, Instant};
 
 use crate::process::{cargo, run};
@@ -32,14 +31,14 @@ pub fn test(arguments: &[String]) -> Outcome {
     if has("--grid") {
         report.stage("agreement grid", || grid(filter));
     } else if has("--window") {
-        report.stage("window", || display::tests(filter));
+        report.stage("window", || tests(WINDOW, filter));
     } else if filter.is_some() {
-        every_test(&mut report, filter);
+        report.stage("tests", || tests(&[], filter));
     } else {
         report.stage("format", || run(&mut cargo(&["fmt", "--all", "--check"])));
         report.stage("tidy", || tidy::run(&[]));
         report.stage("lint", || lint(&[]));
-        every_test(&mut report, None);
+        report.stage("tests", || tests(&[], None));
         for (about, feature) in FURNACES {
             report.stage(about, || furnace(feature));
         }
@@ -53,31 +52,24 @@ pub fn test(arguments: &[String]) -> Outcome {
     report.finish()
 }
 
-/// All unit, integration and documentation tests; those of the window apart, since they need a display.
-fn every_test(report: &mut Report, filter: Option<&str>) {
-    report.stage("tests", || tests(filter));
-    if display::has_window() {
-        report.stage("window", || display::tests(filter));
-    }
-}
+/// The targets that hold the window's tests.
+const WINDOW: &[&str] = &["--bin", "indigo", "--test", "stories"];
 
-/// All tests but the window's, with what they need installed first.
-fn tests(filter: Option<&str>) -> Outcome {
-    let python = venv::for_tests()?;
-    let but_the_window = ["--workspace", "--exclude", display::WINDOW];
-    let selection = if display::has_window() { &but_the_window[..] } else { &but_the_window[..1] };
-    cargo_test(selection, filter, &python)
+/// Unit, integration and documentation tests, all or those of some targets, with what they need installed first.
+///
+/// Targets are chosen from the whole workspace, never by package: cargo enables the features that the chosen packages ask for, so that
+/// a choice of packages builds most libraries once more.
+fn tests(targets: &[&str], filter: Option<&str>) -> Outcome {
+    let mut tests = cargo(&["test", "--workspace", "--no-fail-fast"]);
+    tests.args(targets).args(filter).env(venv::TEST_PYTHON, venv::for_tests()?);
+    let _display = display::for_tests(&mut tests)?;
+    run(&mut tests)
 }
 
 /// Every technique under every driver on every scene of the grid, of which the tests of each run take a part.
 fn grid(filter: Option<&str>) -> Outcome {
-    let tests = ["test", "--package", "indigo-render", "--test", "agreement"];
+    let tests = ["test", "--workspace", "--test", "agreement"];
     run(cargo(&tests).args(filter).args(["--", "--include-ignored"]))
-}
-
-fn cargo_test(selection: &[&str], filter: Option<&str>, python: &Path) -> Outcome {
-    let mut command = cargo(&["test", "--no-fail-fast"]);
-    run(command.args(selection).args(filter).env(venv::TEST_PYTHON, python))
 }
 
 /// The other lane counts that every run renders a furnace with: nothing may rest on there being four.
@@ -86,7 +78,8 @@ const FURNACES: &[(&str, &str)] = &[("furnace, one lane", "lanes-1"), ("furnace,
 /// The furnace tests of whole pictures in a kernel built differently. The longest series of bounces are
 /// left to four lanes: they would take minutes to quieten for one.
 fn furnace(feature: &str) -> Outcome {
-    let tests = ["--package", "indigo-render", "--test", "pictures", "--features", feature, "furnace"];
+    let feature = format!("indigo-render/{feature}");
+    let tests = ["--workspace", "--test", "pictures", "--features", &feature, "furnace"];
     run(cargo(&["test"]).args(tests).args(["--", "--skip", "a_grey_ball", "--skip", "a_highly_reflective"]))
 }
 
@@ -132,12 +125,11 @@ const VARIANTS: &[Variant] = &[
 impl Variant {
     fn test(&self) -> Outcome {
         let feature = format!("{}/{}", self.package, self.feature);
-        let mut selection = vec!["--package", self.package];
+        let mut tests = cargo(&["test", "--no-fail-fast", "--package", self.package]);
         for name in self.crates.iter().filter(|name| **name != self.package) {
-            selection.extend(["--package", name]);
+            tests.args(["--package", name]);
         }
-        selection.extend(["--features", &feature]);
-        cargo_test(&selection, None, &venv::for_tests()?)
+        run(tests.args(["--features", &feature]).env(venv::TEST_PYTHON, venv::for_tests()?))
     }
 }
 
