@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use crate::process::{cargo, run};
-use crate::{Outcome, counts, display, documents, fuzz, generate, tidy, venv};
+use crate::{Outcome, counts, display, documents, fuzz, generate, soak, tidy, venv};
 
 /// Seconds per fuzz target in the full run.
 const FULL_FUZZ_SECONDS: &str = "60";
@@ -84,12 +84,13 @@ fn furnace(feature: &str) -> Outcome {
 }
 
 /// What a release needs beyond every change: the other lane counts, the double-precision oracle, the whole
-/// agreement grid and minutes of fuzzing.
+/// agreement grid, a network render through a long night, and minutes of fuzzing.
 fn full(report: &mut Report) {
     for variant in VARIANTS {
         report.stage(variant.about, || variant.test());
     }
     report.stage("agreement grid", || grid(None));
+    report.stage("long night", || soak::run(&[]));
     report.stage("fuzzing", || fuzz::run(&[FULL_FUZZ_SECONDS.into()]));
 }
 
