@@ -53,6 +53,10 @@ const PLAIN: &[(Modifiers, Key, &str, Effect)] = &[
 
 /// Does what keys ask for, and shows the list of them.
 pub fn keys(context: &Context, state: &mut State) {
+    // The question before closing takes all keys: Escape is an answer to it.
+    if state.asks_to_close {
+        return;
+    }
     let is_typing = context.text_edit_focused();
     for (modifiers, key, _, effect) in COMMANDS.iter().chain(PLAIN.iter().filter(|_| !is_typing)) {
         // On a slow machine a key may have been pressed twice since the last frame.
