@@ -1,4 +1,4 @@
-//! Tests of the window, with a display for machines that have none: Xvfb, and Mesa drawing without a graphics card.
+//! A display for the tests of the window, on machines that have none: Xvfb, and Mesa drawing without a graphics card.
 
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};

@@ -57,8 +57,8 @@ const WINDOW: &[&str] = &["--bin", "indigo", "--test", "stories"];
 
 /// Unit, integration and documentation tests, all or those of some targets, with what they need installed first.
 ///
-/// Targets are chosen from the whole workspace, never by package: cargo enables the features that the chosen packages ask for, so that
-/// a choice of packages builds most libraries once more.
+/// Targets are chosen from the whole workspace: cargo enables the features that the chosen packages ask for, so that a
+/// choice of packages builds most libraries once more.
 fn tests(targets: &[&str], filter: Option<&str>) -> Outcome {
     let mut tests = cargo(&["test", "--workspace", "--no-fail-fast"]);
     tests.args(targets).args(filter).env(venv::TEST_PYTHON, venv::for_tests()?);

@@ -134,6 +134,12 @@ pub fn kill(running: &mut Running) {
     running.0.wait().expect("a child of ours");
 }
 
+/// A slave that is told to stop does so in good order.
+pub fn leave(slave: &mut Running) {
+    interrupt(slave);
+    assert_eq!(slave.finish(), Some(0));
+}
+
 /// As Ctrl-C does.
 pub fn interrupt(running: &Running) {
     signal(running, "-INT");

@@ -1,6 +1,6 @@
 //! A network of its own, as the system makes them: cut by the link, and slowed by `tc netem` where the system has that.
 
-use super::farm::{Farm, interrupt};
+use super::farm::{Farm, leave};
 use super::stories::{assert_all_of, assert_complete};
 use std::io::Write as _;
 use std::process::{Child, Command, Stdio};
@@ -98,8 +98,7 @@ fn a_link_that_is_slow_and_fails_costs_no_sample() {
     assert_complete(&farm);
     assert_all_of(&farm, &[1, 2]);
     for slave in &mut slaves {
-        interrupt(slave);
-        assert_eq!(slave.finish(), Some(0));
+        leave(slave);
     }
 }
 
@@ -112,8 +111,7 @@ fn masters_are_found() {
     farm.start_master("m", &[]);
     let mut slave = farm.searching_slave(3);
     farm.wait_for_uploads(3, 1);
-    interrupt(&slave);
-    assert_eq!(slave.finish(), Some(0));
+    leave(&mut slave);
     farm.end_master();
     assert_complete(&farm);
 }

@@ -2,7 +2,7 @@
 
 use super::accounts::samples_up_to;
 use super::agreement::assert_agrees;
-use super::farm::{Farm, interrupt, kill, signal};
+use super::farm::{Farm, interrupt, kill, leave, signal};
 use super::proxy::Proxy;
 use std::time::Duration;
 
@@ -72,8 +72,7 @@ fn a_master_and_four_slaves_through_deaths_and_broken_networks() {
     assert_complete(&farm);
     assert_all_of(&farm, &[1, 2, 3, 5]);
     for slave in &mut slaves {
-        interrupt(slave);
-        assert_eq!(slave.finish(), Some(0));
+        leave(slave);
     }
     assert_agrees(&farm.bench, &farm.film());
 }
@@ -95,8 +94,7 @@ fn a_working_master_dies_and_goes_on() {
     assert!(seeds.len() == 2 && seeds.contains(&0) && seeds.contains(&7), "{:?}", record.runs);
     assert!(record.samples > samples_up_to(&farm.logs(), 7, record.first_fresh_unit(7)), "its own count");
     assert_complete(&farm);
-    interrupt(&slave);
-    assert_eq!(slave.finish(), Some(0));
+    leave(&mut slave);
 }
 
 /// A halting condition ends the render, with what slaves had not sent yet.
@@ -118,8 +116,7 @@ fn a_render_ends_at_its_number_of_samples() {
     // They wait for the next master.
     for (slave, seed) in slaves.iter_mut().zip(1..) {
         farm.wait(&format!("slave{seed}.json"), "\"event\":\"finished\"");
-        interrupt(slave);
-        assert_eq!(slave.finish(), Some(0));
+        leave(slave);
     }
 }
 
@@ -158,8 +155,7 @@ fn a_film_is_not_written_over_without_a_word() {
     farm.resume_master("m");
     assert!(!farm.text("master3.stderr").contains("written over"), "it goes on");
     farm.end_master();
-    interrupt(&slave);
-    assert_eq!(slave.finish(), Some(0));
+    leave(&mut slave);
 }
 
 /// Whatever way of rendering: layers of camera and light paths, and chains whose brightness is estimated by all machines
@@ -178,8 +174,7 @@ fn all_ways_of_rendering_agree() {
         assert_sums_up(&farm);
         assert_all_of(&farm, &[1, 2]);
         for slave in &mut slaves {
-            interrupt(slave);
-            assert_eq!(slave.finish(), Some(0));
+            leave(slave);
         }
         assert_agrees(&farm.bench, &farm.film());
     }
@@ -210,8 +205,7 @@ fn a_master_may_die_at_the_end() {
     assert_complete(&farm);
     assert_all_of(&farm, &[1, 2]);
     for slave in &mut slaves {
-        interrupt(slave);
-        assert_eq!(slave.finish(), Some(0));
+        leave(slave);
     }
 }
 

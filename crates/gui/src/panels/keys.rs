@@ -3,7 +3,7 @@
 use crate::engine::Command;
 use crate::state::{Action, Ask, State, Tab, Tool};
 use crate::words;
-use eframe::egui::{Context, Grid, Id, Key, KeyboardShortcut, Modal, Modifiers, Window};
+use eframe::egui::{Context, Grid, Id, Key, KeyboardShortcut, Modal, Modifiers, Popup, Window};
 use indigo_render::output::OneFile;
 
 /// What a key does.
@@ -53,8 +53,8 @@ const PLAIN: &[(Modifiers, Key, &str, Effect)] = &[
 
 /// Does what keys ask for, and shows the list of them.
 pub fn keys(context: &Context, state: &mut State) {
-    // The question before closing takes all keys: Escape is an answer to it.
-    if state.asks_to_close {
+    // The question before closing and open lists take all keys: Escape closes them.
+    if state.asks_to_close || Popup::is_any_open(context) {
         return;
     }
     let is_typing = context.text_edit_focused();
@@ -117,6 +117,26 @@ pub fn ask_to_close(context: &Context, state: &mut State) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::recent::Recent;
+    use egui_kittest::Harness;
+    use indigo_front::flags::Arguments;
+
+    #[test]
+    fn escape_answers_the_question_and_only_then_ends_what_the_pointer_does() {
+        let mut state = State::new(Arguments::default(), Recent::default());
+        (state.asks_to_close, state.tool) = (true, Tool::Region);
+        let ui = |ui: &mut eframe::egui::Ui, state: &mut State| {
+            keys(ui.ctx(), state);
+            ask_to_close(ui.ctx(), state);
+        };
+        let mut harness = Harness::new_ui_state(ui, state);
+        for (asks_to_close, tool) in [(false, Tool::Region), (false, Tool::Pan)] {
+            harness.key_press(Key::Escape);
+            harness.run();
+            let state = harness.state();
+            assert_eq!((state.asks_to_close, state.tool), (asks_to_close, tool));
+        }
+    }
 
     #[test]
     fn no_key_has_two_meanings() {
