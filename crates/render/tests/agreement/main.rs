@@ -23,8 +23,6 @@ use std::fmt::Write;
 
 /// Probability of any false alarm in the whole grid.
 const FAMILY: f64 = 1e-4;
-/// More comparisons than the grid holds: three channels of each scene in each mode but the first.
-const COMPARISONS: usize = 500;
 /// Independent renders of a mode.
 const BATCHES: u64 = 16;
 /// Blocks along a side of the picture.
@@ -74,7 +72,9 @@ fn agree(name: &str, mut scene: Scene) {
     let mut pictures = vec![];
     let mut reference = None;
     let mut faults = String::new();
-    let test = ZGrid { family_level: sidak(FAMILY, COMPARISONS), rounding: 1e-5 };
+    // Three channels of each scene in each mode but the first.
+    let comparisons = 3 * SCENES * (MODES.len() - 1);
+    let test = ZGrid { family_level: sidak(FAMILY, comparisons), rounding: 1e-5 };
     for mode in MODES {
         mode.set(&mut scene);
         // Paths through media have many more vertices, so that half of them take as long.
@@ -104,6 +104,8 @@ fn agree(name: &str, mut scene: Scene) {
 /// A test for each scene: `always` ones in every run, `with_grid` ones by `cargo xtask test --grid` alone.
 macro_rules! grid {
     (always: [$($scene:ident,)*] with_grid: [$($more:ident,)*]) => {
+        const SCENES: usize = [$(stringify!($scene),)* $(stringify!($more),)*].len();
+
         $(#[test]
         fn $scene() {
             agree(stringify!($scene), scenes::$scene());

@@ -131,7 +131,8 @@ impl Console {
         let program = match program {
             Some(program) => program,
             None => {
-                process::run(&mut process::cargo(&["build", "--release", "--package", "indigo-cli"]))?;
+                let build = ["build", "--release", "--workspace", "--bin", "indigo_console"];
+                process::run(&mut process::cargo(&build))?;
                 process::target_dir()
                     .join("release")
                     .join(format!("indigo_console{}", std::env::consts::EXE_SUFFIX))

@@ -49,7 +49,8 @@ impl Options {
             full: false,
             only: None,
             console: None,
-            jobs: std::thread::available_parallelism().map_or(1, usize::from),
+            // A short render waits for its files to reach the disk for half of its time.
+            jobs: 2 * std::thread::available_parallelism().map_or(1, usize::from),
             mitsuba: true,
             out: process::target_dir().join("validation"),
         };

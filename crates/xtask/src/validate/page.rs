@@ -69,12 +69,12 @@ fn summary(report: &Report) -> String {
         let _ = write!(
             table,
             "<tr><td><a href=\"#{}\">{name}</a></td><td class=\"number\">{}</td><td class=\"number\">{}</td>\
-             <td class=\"number\">{}</td><td class=\"number\">{:.2} %</td><td>{}</td></tr>",
+             <td class=\"number\">{}</td><td class=\"number\">{} %</td><td>{}</td></tr>",
             anchor(name),
             list.len(),
             verdicts.len(),
             probability(least),
-            100.0 * resolutions[resolutions.len() / 2],
+            two_digits(100.0 * resolutions[resolutions.len() / 2]),
             badge(failed)
         );
     }
@@ -208,6 +208,12 @@ fn number(value: f64) -> String {
 /// Two digits.
 fn short(value: f64) -> String {
     if value == 0.0 { "0".to_owned() } else { format!("{value:.1e}") }
+}
+
+/// Two digits that count, written out.
+fn two_digits(value: f64) -> String {
+    let digits = if value > 0.0 { (1 - value.log10().floor() as i32).max(0) as usize } else { 0 };
+    format!("{value:.digits$}")
 }
 
 fn probability(p: f64) -> String {
