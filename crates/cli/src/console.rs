@@ -153,22 +153,6 @@ impl Console {
         }
     }
 
-    /// Tells of something that has happened in a network render.
-    pub fn event(&mut self, event: &Event) {
-        let message = event.to_string();
-        let values = event.fields().into_iter().map(|(name, value)| match value {
-            Field::Text(text) => format!(",\"{name}\":{}", quoted(&text)),
-            Field::Number(number) => format!(",\"{name}\":{number}"),
-        });
-        let fields = format!(",\"event\":\"{}\"{}", event.kind(), values.collect::<String>());
-        let (level, text) = match event.weight() {
-            Weight::Detail => (Level::Detail, message.clone()),
-            Weight::Info => (Level::Info, message.clone()),
-            Weight::Warning => (Level::Warning, format!("warning: {message}")),
-        };
-        self.write(level, &text, &message, &fields);
-    }
-
     /// Renews the progress line on a terminal; a line of its own elsewhere.
     pub fn progress(&mut self, progress: &Progress) {
         self.progress_of(progress, "");
@@ -251,6 +235,21 @@ impl Messages for Console {
 
     fn detail(&mut self, message: &str) {
         self.write(Level::Detail, message, message, "");
+    }
+
+    fn event(&mut self, event: &Event) {
+        let message = event.to_string();
+        let values = event.fields().into_iter().map(|(name, value)| match value {
+            Field::Text(text) => format!(",\"{name}\":{}", quoted(&text)),
+            Field::Number(number) => format!(",\"{name}\":{number}"),
+        });
+        let fields = format!(",\"event\":\"{}\"{}", event.kind(), values.collect::<String>());
+        let (level, text) = match event.weight() {
+            Weight::Detail => (Level::Detail, message.clone()),
+            Weight::Info => (Level::Info, message.clone()),
+            Weight::Warning => (Level::Warning, format!("warning: {message}")),
+        };
+        self.write(level, &text, &message, &fields);
     }
 }
 

@@ -1,6 +1,5 @@
 //! `indigo_console`: renders a scene from the command line.
 
-mod claim;
 mod console;
 mod films;
 mod interrupts;

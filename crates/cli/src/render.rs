@@ -1,6 +1,5 @@
 //! Rendering a scene until it is done, saving on the way.
 
-use crate::claim::Claim;
 use crate::console::Console;
 use crate::interrupts::{end_in_order, is_interrupted};
 use indigo_film::SavedFilm;
@@ -41,10 +40,6 @@ pub fn render(
     };
     end_in_order();
     let Prepared { scene, options, job, .. } = &prepared;
-    let _claim = match Claim::of(&job.paths.png, console) {
-        Ok(claim) => claim,
-        Err(status) => return status,
-    };
     let session = match &saved {
         Some(saved) => Session::go_on(Arc::clone(scene), options, saved),
         None => Session::start(Arc::clone(scene), options),

@@ -1,10 +1,12 @@
 //! What the front ends share: the command line, where files are, loading a scene, getting ready to render it, and
 //! saving on the way. `indigo_console` adds what is said on a terminal, `indigo` a window.
 
+mod claim;
 pub mod cpu;
 pub mod flags;
 pub mod load;
 pub mod messages;
+pub mod net;
 pub mod packs;
 pub mod paths;
 pub mod prepare;

@@ -1,5 +1,6 @@
 //! What is said to the user, whatever shows it; and numbers in words.
 
+use indigo_net::event::Event;
 use indigo_render::output::Saved;
 use std::time::Duration;
 
@@ -27,6 +28,8 @@ pub trait Messages {
     fn say(&mut self, message: &str);
     /// Says what takes time, to those who want to know.
     fn detail(&mut self, message: &str);
+    /// Tells of something that has happened in a network render.
+    fn event(&mut self, event: &Event);
 }
 
 /// Names the files that were written and those that were not; whether all were.

@@ -1,5 +1,6 @@
 //! Getting ready to render: what it takes is found, and what it writes can be written.
 
+use crate::claim::Claim;
 use crate::flags::Arguments;
 use crate::messages::{Messages, clock, count, scaled};
 use crate::status::{BAD_INPUT, FAILED};
@@ -23,8 +24,9 @@ pub struct Prepared {
     pub options: Options,
     /// What is saved, and where to.
     pub job: SaveJob,
-    /// Keeps others away from the picture's name.
+    /// Keep others away from the picture's name.
     _picture: Picture,
+    _claim: Claim,
 }
 
 /// Gets ready to render a scene.
@@ -90,7 +92,8 @@ pub fn prepare(
         messages.error(&error.to_string());
         return Err(FAILED);
     }
-    Ok(Prepared { scene, options, job, _picture: picture })
+    let claim = Claim::of(&job.paths.png, messages)?;
+    Ok(Prepared { scene, options, job, _picture: picture, _claim: claim })
 }
 
 /// What to say where a file that is to be written is one of those that were read, by whatever name.

@@ -1,18 +1,20 @@
 //! The window: it hands what happens to the panels, and what they ask for to the engine.
 
+use crate::action::{Action, Ask};
 use crate::comparison;
 use crate::engine::{Command, Engine, Phase, Request, Shown};
 use crate::log::{Line, Weight};
 use crate::panels::{self, Textures};
 use crate::recent::Recent;
 use crate::scene_file::SceneFile;
-use crate::state::{Action, Ask, Picture, State};
+use crate::state::{Picture, State};
 use crate::{theme, words};
 use eframe::egui::{
     self, CentralPanel, ColorImage, Context, Frame, Margin, Panel, TextureFilter, TextureOptions, Ui,
     ViewportCommand,
 };
-use indigo_front::flags::Arguments;
+use indigo_front::flags::{Arguments, Role};
+use indigo_front::net::make_key;
 use indigo_render::output::OneFile;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -55,6 +57,8 @@ impl App {
             .ok();
         if let Some(path) = state.arguments.files.first().cloned() {
             state.act(Action::Open(path.into()));
+        } else if state.part.role == Some(Role::Slave) {
+            state.start_or_pause();
         }
         let (answer, answers) = channel();
         Self { state, engine, textures: Textures::default(), answers, answer, is_gone: false }
@@ -104,9 +108,20 @@ impl App {
         self.state.log.add(Line { weight: Weight::Error, text });
     }
 
+    fn say(&mut self, text: String) {
+        self.state.log.add(Line { weight: Weight::Info, text });
+    }
+
+    fn take_key(&mut self, path: &Path) {
+        match path.to_str() {
+            Some(text) => text.clone_into(&mut self.state.part.key_file),
+            None => self.complain(words::not_text(path)),
+        }
+    }
+
     fn tell_written(&mut self, files: &[PathBuf]) {
         for file in files {
-            self.state.log.add(Line { weight: Weight::Info, text: words::saved(file) });
+            self.say(words::saved(file));
         }
     }
 
@@ -249,6 +264,8 @@ impl App {
             Ask::Compare => {
                 Box::pin(dialog.add_filter(words::PICTURES, &["png", "exr", "jpg", "tif", "hdr"]).pick_file())
             }
+            Ask::Key => Box::pin(dialog.pick_file()),
+            Ask::NewKey => Box::pin(dialog.set_file_name(words::KEY_NAME).save_file()),
             Ask::Save(what) => {
                 let ending = words::ending(what);
                 Box::pin(dialog.add_filter(ending, &[ending]).set_file_name(name(ending)).save_file())
@@ -273,6 +290,14 @@ impl App {
                 let path = with_ending(path, what);
                 self.send(Command::Save(what, path));
             }
+            Ask::Key => self.take_key(&path),
+            Ask::NewKey => match make_key(&path) {
+                Ok(()) => {
+                    self.say(words::key_made(&path));
+                    self.take_key(&path);
+                }
+                Err(text) => self.complain(text),
+            },
             Ask::Compare => {
                 let (answer, context) = (self.answer.clone(), context.clone());
                 self.spawn("compare", move || {

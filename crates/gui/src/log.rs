@@ -1,7 +1,6 @@
 //! What was said, and what was found in a scene.
 
 use indigo_diag::{Diagnostic, Severity, Sink, SourceMap, Span, Style, to_text};
-use indigo_front::messages::Messages;
 use std::sync::Arc;
 
 /// The most lines that are kept; older ones are dropped.
@@ -46,32 +45,6 @@ impl Log {
     pub fn lines(&self) -> impl ExactSizeIterator<Item = &Line> {
         self.lines.iter()
     }
-}
-
-/// Gathers messages of what the front ends share.
-#[derive(Default)]
-pub struct Gathered(pub Vec<Line>);
-
-impl Gathered {
-    fn add(&mut self, weight: Weight, text: &str) {
-        self.0.push(Line { weight, text: text.to_owned() });
-    }
-}
-
-impl Messages for Gathered {
-    fn error(&mut self, message: &str) {
-        self.add(Weight::Error, message);
-    }
-
-    fn warn(&mut self, message: &str) {
-        self.add(Weight::Warning, message);
-    }
-
-    fn say(&mut self, message: &str) {
-        self.add(Weight::Info, message);
-    }
-
-    fn detail(&mut self, _message: &str) {}
 }
 
 /// Something that was found in the files of a scene.

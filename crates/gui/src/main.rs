@@ -1,11 +1,13 @@
 //! `indigo`: a window in which a picture is watched while it grows, and finished.
 
+mod action;
 mod app;
 mod comparison;
 mod controls;
 mod engine;
 mod log;
 mod panels;
+mod part;
 mod queue;
 mod recent;
 mod scene_file;
@@ -79,7 +81,6 @@ fn only_of_console(arguments: &Arguments) -> Option<&'static str> {
         "quiet",
         "verbose",
         "log-json",
-        "n",
     ];
     arguments.given.iter().find(|name| OF_CONSOLE.contains(name)).copied()
 }

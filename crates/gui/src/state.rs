@@ -1,9 +1,13 @@
 //! All that the window shows and remembers, as plain data.
 
+mod news;
+
+use crate::action::Action;
 use crate::comparison::Comparison;
 use crate::controls::Controls;
-use crate::engine::{Command, Histogram, LoadedFacts, Phase, Request, Update};
+use crate::engine::{Command, Histogram, LoadedFacts, Phase, Request};
 use crate::log::{Finding, Line, Log, SourceView, Weight};
+use crate::part::Part;
 use crate::queue::Queue;
 use crate::recent::Recent;
 use crate::scene_file::SceneFile;
@@ -13,11 +17,11 @@ use crate::work::{Mode, Work};
 use eframe::egui::Pos2;
 use indigo_diag::SourceMap;
 use indigo_film::XyzImage;
-use indigo_front::flags::Arguments;
+use indigo_front::flags::{Arguments, Role};
 use indigo_imaging::PictureSettings;
+use indigo_net::master::Status;
 use indigo_render::Progress;
-use indigo_render::output::OneFile;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -45,11 +49,13 @@ pub enum Tab {
     Scene,
     /// Scenes to render.
     Queue,
+    /// The part in renders of many machines.
+    Network,
 }
 
 impl Tab {
     /// All of them.
-    pub const ALL: [Self; 4] = [Self::Picture, Self::Render, Self::Scene, Self::Queue];
+    pub const ALL: [Self; 5] = [Self::Picture, Self::Render, Self::Scene, Self::Queue, Self::Network];
 }
 
 /// What the panel at the bottom shows.
@@ -60,41 +66,8 @@ pub enum Foot {
     Log,
     /// What was found in the scene.
     Findings,
-}
-
-/// What a dialog asks for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Ask {
-    /// A scene or a film to open.
-    Open,
-    /// Where to write a file.
-    Save(OneFile),
-    /// A picture to compare with.
-    Compare,
-    /// Scenes for the queue.
-    Queue,
-}
-
-/// What is to be done, by whichever panel or key asked for it.
-pub enum Action {
-    /// Tell the engine.
-    Command(Command),
-    /// Open a file, by its ending.
-    Open(PathBuf),
-    /// Ask the user for a path.
-    Ask(Ask),
-    /// Load the scene again, with another mode.
-    Restart,
-    /// Read the scene's elements.
-    ReadElements,
-    /// Write what was changed in them.
-    SaveElements,
-    /// Write how the picture is developed into the scene.
-    WriteSettings,
-    /// Begin the queue, or go on with it.
-    RunQueue,
-    /// Close the window.
-    Close,
+    /// Who renders, too.
+    Slaves,
 }
 
 /// The last picture that was developed.
@@ -148,6 +121,10 @@ pub struct State {
     pub work: Option<Work>,
     /// How light is to be transported.
     pub mode: Option<Mode>,
+    /// The part in renders of many machines, from the next start on.
+    pub part: Part,
+    /// How things stand with slaves, where this is or was their master.
+    pub slaves: Option<Box<Status>>,
     /// The picture.
     pub picture: Option<Picture>,
     /// Where it is on the screen.
@@ -188,7 +165,6 @@ impl State {
     /// Nothing is open.
     pub fn new(arguments: Arguments, recent: Recent) -> Self {
         Self {
-            arguments,
             phase: Phase::Empty,
             facts: None,
             path: None,
@@ -204,6 +180,9 @@ impl State {
             responses: crate::controls::responses(),
             work: None,
             mode: None,
+            part: Part::of(&arguments),
+            arguments,
+            slaves: None,
             picture: None,
             view: View::default(),
             tool: Tool::Pan,
@@ -234,27 +213,45 @@ impl State {
         self.actions.push(Action::Command(command));
     }
 
-    /// Whether threads are at work, or would be after a pause.
+    /// Whether something is rendered, or would be after a pause.
     pub fn is_under_way(&self) -> bool {
-        matches!(self.phase, Phase::Rendering | Phase::Paused | Phase::Ending)
+        matches!(self.phase, Phase::Rendering | Phase::Paused | Phase::Ending | Phase::Slave)
     }
 
-    /// Whether a render can begin.
+    /// Whether the film grows, or would after a pause: what can be saved now and again.
+    pub fn has_growing_film(&self) -> bool {
+        matches!(self.phase, Phase::Rendering | Phase::Paused)
+    }
+
+    /// Whether this is the master of the render that is under way.
+    pub fn is_master(&self) -> bool {
+        self.slaves.is_some() && self.has_growing_film()
+    }
+
+    /// Whether a render can begin. A slave gets its scene from its master.
     pub fn can_start(&self) -> bool {
-        self.facts.is_some() && matches!(self.phase, Phase::Ready | Phase::Halted(_))
+        let rests = matches!(self.phase, Phase::Empty | Phase::Ready | Phase::Halted(_));
+        rests && (self.part.role == Some(Role::Slave) || self.facts.is_some() && self.phase != Phase::Empty)
     }
 
     /// Starts, pauses or goes on, whichever comes next.
     pub fn start_or_pause(&mut self) {
         match self.phase {
+            // Slaves would not rest.
+            Phase::Rendering if self.is_master() => {}
             Phase::Rendering => self.command(Command::Pause),
             Phase::Paused => self.command(Command::Resume),
-            _ if self.can_start() => {
-                if let Some(work) = self.work {
-                    self.command(Command::Start(work));
-                }
-            }
+            _ if self.can_start() => self.start(),
             _ => {}
+        }
+    }
+
+    fn start(&mut self) {
+        let part = Box::new(self.part.clone());
+        if part.role == Some(Role::Slave) {
+            self.command(Command::StartSlave(part, Box::new(self.arguments.clone())));
+        } else if let Some(work) = self.work {
+            self.command(Command::Start(work, part));
         }
     }
 
@@ -266,7 +263,10 @@ impl State {
             (arguments.resume, arguments.output) = (None, None);
         }
         let film = arguments.resume.as_ref().map(PathBuf::from);
-        Request { path: path.to_owned(), arguments, film, starts, halts_at: None }
+        // A scene is opened to be rendered here, whatever else this machine may be.
+        let part = if self.part.role == Some(Role::Slave) { None } else { self.part.role };
+        let part = Part { role: part, ..self.part.clone() };
+        Request { path: path.to_owned(), arguments, part, film, starts, halts_at: None }
     }
 
     /// The request for the open scene in the mode that is chosen.
@@ -275,60 +275,6 @@ impl State {
         let mut request = Request { film: None, ..self.request(path, self.is_under_way()) };
         request.arguments.settings.extend(mode.overrides());
         Some(request)
-    }
-
-    /// Takes news of the engine.
-    pub fn take(&mut self, update: Update) {
-        match update {
-            Update::Phase(phase) => self.phase = phase,
-            Update::Scene(facts) => self.take_scene(*facts),
-            Update::Findings(findings, sources) => {
-                if findings.iter().any(|finding| finding.weight != Weight::Info) {
-                    self.foot = Foot::Findings;
-                }
-                (self.findings, self.sources, self.source_view) = (findings, sources, None);
-            }
-            Update::Film(settings, path) => {
-                self.facts = None;
-                self.path = Some(path.display().to_string());
-                self.controls = Some(Controls::of(&settings));
-                self.base = Some(*settings);
-                (self.work, self.mode, self.progress) = (None, None, None);
-            }
-            Update::Progress(progress, memory) => (self.progress, self.memory) = (Some(progress), memory),
-            Update::Line(line) => self.log.add(line),
-            Update::Done => self.scene_is_done(),
-            Update::Gone => self.act(Action::Close),
-        }
-    }
-
-    fn take_scene(&mut self, facts: LoadedFacts) {
-        let is_same = self.facts.as_ref().is_some_and(|old| old.path == facts.path && old.size == facts.size);
-        if !is_same {
-            self.view.fit();
-            self.picture = None;
-            self.work = None;
-        }
-        self.progress = None;
-        self.file = None;
-        // What was tried out on the same scene stays.
-        if !is_same || self.controls.is_none() {
-            self.controls = Some(Controls::of(&facts.picture));
-        }
-        self.base = Some(facts.picture.clone());
-        self.work.get_or_insert(Work::of(&facts.output, self.arguments.halt_error));
-        self.mode = Some(Mode::of(&facts.transport));
-        self.recent.add(Path::new(&facts.path));
-        self.path = Some(facts.path.clone());
-        self.facts = Some(facts);
-        self.controls_changed();
-    }
-
-    /// The next scene of the queue, if it runs.
-    fn scene_is_done(&mut self) {
-        if self.queue.done() {
-            self.act(Action::RunQueue);
-        }
     }
 
     /// Sends the controls to where pictures are made.
@@ -372,25 +318,9 @@ impl State {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use indigo_imaging::{Exposure, ToneMapping};
 
     fn state() -> State {
         State::new(Arguments::default(), Recent::default())
-    }
-
-    #[test]
-    fn a_film_alone_has_controls_but_no_work() {
-        let mut state = state();
-        let exposure = Exposure { aperture_area: 1.0, lens_sensor_dist: 1.0, duration: 1.0 };
-        let settings = PictureSettings::plain(ToneMapping::Linear { scale: 2.0 }, exposure);
-        state.take(Update::Film(Box::new(settings), "a.igi".into()));
-        assert_eq!(state.controls.as_ref().map(|c| c.scale), Some(2.0));
-        assert!(!state.can_start() && state.work.is_none());
-        state.brighten(1.0);
-        assert_eq!(state.controls.as_ref().map(|c| c.scale), Some(4.0));
-        assert!(matches!(state.actions.last(), Some(Action::Command(Command::SetPicture(_)))));
-        state.reset_controls();
-        assert_eq!(state.controls.as_ref().map(|c| c.scale), Some(2.0));
     }
 
     #[test]
@@ -407,11 +337,12 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_in_a_scene_is_shown() {
+    fn a_slave_needs_no_scene() {
         let mut state = state();
-        let finding =
-            Finding { weight: Weight::Warning, head: String::new(), full: String::new(), span: None };
-        state.take(Update::Findings(vec![finding], Arc::default()));
-        assert_eq!(state.foot, Foot::Findings);
+        state.part.role = Some(Role::Slave);
+        state.start_or_pause();
+        assert!(matches!(state.actions.pop(), Some(Action::Command(Command::StartSlave(..)))));
+        let request = state.request("a.igs", true);
+        assert_eq!(request.part.role, None, "a scene that is opened is rendered here");
     }
 }

@@ -6,7 +6,7 @@
 //! killed or after. What a file of the film holds is known to its reader in the same way.
 
 use indigo_film::{
-    FilmError, FilmRecord, FilmSize, LayerKind, Mismatch, Run, SavedFilm, Share, Totals, is_count,
+    FilmError, FilmRecord, FilmSize, FilmState, LayerKind, Mismatch, Run, SavedFilm, Share, Totals, is_count,
 };
 
 /// The longest time of rendering of an upload, in seconds: a year.
@@ -93,6 +93,11 @@ impl Ledger {
     /// The film's resolution.
     pub fn size(&self) -> FilmSize {
         self.sum.film.size
+    }
+
+    /// The film's sums.
+    pub fn sums(&self) -> &FilmState {
+        &self.sum.film
     }
 
     /// Samples per output pixel.

@@ -1,7 +1,8 @@
 //! Loading scenes, each on a thread of its own, which nobody need wait for.
 
 use super::{Command, Request};
-use crate::log::{Finding, Gathered, Line, Weight, findings};
+use crate::log::{Finding, Line, Weight, findings};
+use crate::words;
 use indigo_diag::SourceMap;
 use indigo_film::{FilmSize, SavedFilm};
 use indigo_front::load::load_scene;
@@ -82,7 +83,6 @@ pub fn spawn(ticket: u64, request: Request, to: Sender<Command>) -> std::io::Res
 
 fn load(request: Request) -> Outcome {
     let start = Instant::now();
-    let mut messages = Gathered::default();
     let empty = |request, lines| Outcome {
         request,
         scene: None,
@@ -99,9 +99,7 @@ fn load(request: Request) -> Outcome {
     match load_scene(&request.path, &request.arguments) {
         Ok((loaded, read)) => {
             let seconds = start.elapsed().as_secs_f64();
-            messages
-                .0
-                .push(Line { weight: Weight::Info, text: crate::words::loaded(&request.path, seconds) });
+            let line = Line { weight: Weight::Info, text: words::loaded(&request.path, seconds) };
             Outcome {
                 request,
                 scene: loaded.scene.map(Arc::new),
@@ -109,7 +107,7 @@ fn load(request: Request) -> Outcome {
                 film,
                 findings: findings(&loaded.sink, &loaded.sources),
                 sources: Arc::new(loaded.sources),
-                lines: messages.0,
+                lines: vec![line],
             }
         }
         Err(message) => empty(request, vec![Line { weight: Weight::Error, text: message }]),

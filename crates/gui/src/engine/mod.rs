@@ -8,12 +8,16 @@ mod worker;
 pub use develop::{Desk, Histogram, Shown};
 pub use load::LoadedFacts;
 
-use crate::log::{Finding, Line};
+use crate::log::{Finding, Line, Weight};
+use crate::part::Part;
 use crate::work::Work;
 use eframe::egui;
 use indigo_diag::SourceMap;
 use indigo_front::flags::Arguments;
+use indigo_front::messages::Messages;
 use indigo_imaging::PictureSettings;
+use indigo_net::event::{self, Event};
+use indigo_net::master::Status;
 use indigo_render::output::OneFile;
 use indigo_render::{HaltReason, Progress};
 use std::path::PathBuf;
@@ -32,7 +36,9 @@ pub enum Command {
     /// Look at a film, or go on with it where it is of the scene.
     OpenFilm(PathBuf),
     /// Begin to render, or go on with the film that is there.
-    Start(Work),
+    Start(Work, Box<Part>),
+    /// Render for masters.
+    StartSlave(Box<Part>, Box<Arguments>),
     /// Let the threads rest.
     Pause,
     /// Go on after a rest.
@@ -63,6 +69,8 @@ pub struct Request {
     pub path: String,
     /// What the command line says, with what the window adds.
     pub arguments: Arguments,
+    /// The part of this machine, if others render the scene, too.
+    pub part: Part,
     /// The film to go on with.
     pub film: Option<PathBuf>,
     /// Whether to render at once.
@@ -89,6 +97,8 @@ pub enum Phase {
     Ending,
     /// The render has ended.
     Halted(HaltReason),
+    /// This machine renders for a master.
+    Slave,
 }
 
 /// What the window is told.
@@ -103,6 +113,8 @@ pub enum Update {
     Film(Box<PictureSettings>, PathBuf),
     /// How far the render is, and the memory that the program holds, in bytes.
     Progress(Progress, Option<u64>),
+    /// How things stand with slaves.
+    Slaves(Box<Status>),
     /// Something to tell.
     Line(Line),
     /// The scene of the queue is done.
@@ -125,6 +137,47 @@ impl Outlet {
         drop(self.updates.send(update));
         self.context.request_repaint();
     }
+
+    /// Tells how far a render is.
+    pub fn tell_progress(&self, progress: Progress) {
+        self.send(Update::Progress(progress, memory()));
+    }
+
+    /// Tells something.
+    pub fn line(&self, weight: Weight, text: impl Into<String>) {
+        self.send(Update::Line(Line { weight, text: text.into() }));
+    }
+}
+
+impl Messages for Outlet {
+    fn error(&mut self, message: &str) {
+        self.line(Weight::Error, message);
+    }
+
+    fn warn(&mut self, message: &str) {
+        self.line(Weight::Warning, message);
+    }
+
+    fn say(&mut self, message: &str) {
+        self.line(Weight::Info, message);
+    }
+
+    fn detail(&mut self, _message: &str) {}
+
+    fn event(&mut self, event: &Event) {
+        match event.weight() {
+            event::Weight::Detail => {}
+            event::Weight::Info => self.say(&event.to_string()),
+            event::Weight::Warning => self.warn(&event.to_string()),
+        }
+    }
+}
+
+/// Bytes of memory that the program holds, where the system tells.
+fn memory() -> Option<u64> {
+    let text = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = text.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
+    Some(line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()? << 10)
 }
 
 /// The engine, as the window holds it.

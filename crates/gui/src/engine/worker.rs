@@ -1,23 +1,27 @@
 //! The engine's own thread: it holds the scene and the running session.
 
 mod run;
+mod source;
 
 use super::{Command, Desk, LoadedFacts, Outlet, Phase, Request, Update, load};
-use crate::log::{Gathered, Line, Weight};
+use crate::log::Weight;
+use crate::part::Part;
 use crate::words;
 use crate::work::Work;
 use indigo_film::SavedFilm;
+use indigo_front::flags::Arguments;
 use indigo_front::messages::{Messages as _, say_saved};
+use indigo_front::net::slave::SlaveRender;
 use indigo_imaging::{Exposure, PictureSettings, ToneMapping};
 use indigo_render::Session;
 use indigo_render::output::{OneFile, OutputPaths, SaveJob};
 use indigo_render::saved::read_film;
 use indigo_scene::Scene;
-use run::Run;
+use run::{BETWEEN_NEWS, Run};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// How long a command may wait while a scene is rendered.
 const PULSE: Duration = Duration::from_millis(40);
@@ -27,6 +31,8 @@ struct Open {
     scene: Arc<Scene>,
     read: Vec<PathBuf>,
     request: Request,
+    /// The part that is rendered by the scene's files.
+    region_of_files: Option<[[u32; 2]; 2]>,
 }
 
 /// See the module.
@@ -40,6 +46,10 @@ pub struct Worker {
     ticket: u64,
     open: Option<Open>,
     run: Option<Run>,
+    /// What is rendered for a master, and when that was last told.
+    slave: Option<(SlaveRender, Instant)>,
+    /// The part of this machine in what is rendered.
+    part: Part,
     /// The film of the last render, or one that was opened.
     film: Option<Arc<SavedFilm>>,
     picture: Option<PictureSettings>,
@@ -48,13 +58,25 @@ pub struct Worker {
 impl Worker {
     /// A worker that takes orders.
     pub fn new(orders: Receiver<Command>, to_self: Sender<Command>, outlet: Outlet, desk: Arc<Desk>) -> Self {
-        Self { orders, to_self, outlet, desk, ticket: 0, open: None, run: None, film: None, picture: None }
+        Self {
+            orders,
+            to_self,
+            outlet,
+            desk,
+            ticket: 0,
+            open: None,
+            run: None,
+            slave: None,
+            part: Part::of(&Arguments::default()),
+            film: None,
+            picture: None,
+        }
     }
 
     /// Works until told to quit.
     pub fn work(mut self) {
         loop {
-            let is_at_work = self.run.as_ref().is_some_and(|run| !run.is_at_rest());
+            let is_at_work = self.slave.is_some() || self.run.as_ref().is_some_and(|run| !run.is_at_rest());
             let order = if is_at_work { self.orders.try_recv().ok() } else { self.orders.recv().ok() };
             match order {
                 Some(Command::Quit { saves }) => return self.quit(saves),
@@ -74,7 +96,11 @@ impl Worker {
             // Another was asked for meanwhile, or none.
             Command::Loaded(..) | Command::Quit { .. } => {}
             Command::OpenFilm(path) => self.open_film(&path),
-            Command::Start(work) => self.start(&work),
+            Command::Start(work, part) => {
+                self.part = *part;
+                self.start(&work);
+            }
+            Command::StartSlave(part, arguments) => self.start_slave(&part, &arguments),
             Command::Pause => self.with_run(Run::pause),
             Command::Resume => self.with_run(Run::resume),
             Command::Stop => self.stop(true),
@@ -97,14 +123,8 @@ impl Worker {
         }
     }
 
-    fn say(&self, weight: Weight, text: String) {
-        self.outlet.send(Update::Line(Line { weight, text }));
-    }
-
-    fn tell(&self, lines: Vec<Line>) {
-        for line in lines {
-            self.outlet.send(Update::Line(line));
-        }
+    fn say(&self, weight: Weight, text: impl Into<String>) {
+        self.outlet.line(weight, text);
     }
 
     /// What the engine is at when nothing is rendered.
@@ -124,13 +144,15 @@ impl Worker {
 
     fn cancel(&mut self) {
         self.ticket += 1;
-        self.say(Weight::Info, words::CANCELLED.to_owned());
+        self.say(Weight::Info, words::CANCELLED);
         self.outlet.send(Update::Phase(self.at_rest()));
         self.outlet.send(Update::Done);
     }
 
     fn loaded(&mut self, outcome: load::Outcome) {
-        self.tell(outcome.lines);
+        for line in outcome.lines {
+            self.outlet.send(Update::Line(line));
+        }
         self.outlet.send(Update::Findings(outcome.findings, outcome.sources));
         let Some(scene) = outcome.scene else {
             self.say(Weight::Error, words::not_rendered(&outcome.request.path));
@@ -147,7 +169,10 @@ impl Worker {
         self.desk.set_settings(facts.picture.clone());
         self.film = outcome.film.map(Arc::new);
         let starts = outcome.request.starts;
-        self.open = Some(Open { scene, read: outcome.read, request: outcome.request });
+        self.part = outcome.request.part.clone();
+        let (read, request) = (outcome.read, outcome.request);
+        let region_of_files = scene.film.region;
+        self.open = Some(Open { scene, read, request, region_of_files });
         self.outlet.send(Update::Scene(Box::new(facts)));
         self.outlet.send(Update::Phase(Phase::Ready));
         if starts {
@@ -189,10 +214,8 @@ impl Worker {
         if self.run.is_some() {
             return;
         }
-        let mut messages = Gathered::default();
-        let begun = Run::begin(open, work, self.film.as_deref(), self.picture.as_ref(), &mut messages);
-        self.tell(messages.0);
-        match begun {
+        let (film, picture) = (self.film.as_deref(), self.picture.as_ref());
+        match Run::begin(open, &self.part, work, film, picture, &mut self.outlet) {
             Some(run) => {
                 self.run = Some(run);
                 self.outlet.send(Update::Phase(Phase::Rendering));
@@ -204,28 +227,61 @@ impl Worker {
         }
     }
 
+    /// Renders for masters from now on.
+    fn start_slave(&mut self, part: &Part, arguments: &Arguments) {
+        if self.run.is_some() || self.slave.is_some() {
+            return;
+        }
+        let arguments = match part.in_arguments(arguments) {
+            Ok(arguments) => arguments,
+            Err(wrong) => return self.say(Weight::Error, wrong),
+        };
+        if let Ok(slave) = SlaveRender::start(&arguments, &mut self.outlet) {
+            self.slave = Some((slave, Instant::now()));
+            self.outlet.send(Update::Phase(Phase::Slave));
+        }
+    }
+
     fn render_on(&mut self) {
-        let Some(run) = &mut self.run else { return };
-        if let Some(reason) = run.go_on(PULSE, &self.outlet, &self.desk) {
+        if let Some((slave, told)) = &mut self.slave {
+            if !slave.step(PULSE, &mut self.outlet) {
+                return self.end_slave();
+            }
+            if told.elapsed() >= BETWEEN_NEWS
+                && let Some(progress) = slave.progress()
+            {
+                *told = Instant::now();
+                self.outlet.tell_progress(progress);
+            }
+        } else if let Some(run) = &mut self.run
+            && let Some(reason) = run.go_on(PULSE, &mut self.outlet, &self.desk)
+        {
             self.end(reason, true);
         }
     }
 
-    /// Ends the render that is under way, if any.
+    /// Ends what is under way, if anything is.
     fn stop(&mut self, saves: bool) {
+        self.end_slave();
         let Some(run) = &mut self.run else { return };
         self.outlet.send(Update::Phase(Phase::Ending));
         let reason = run.stop();
         self.end(reason, saves);
     }
 
+    /// Sends what is left to the master, and leaves.
+    fn end_slave(&mut self) {
+        let Some((slave, _)) = self.slave.take() else { return };
+        self.outlet.send(Update::Phase(Phase::Ending));
+        slave.finish(&mut self.outlet);
+        self.outlet.send(Update::Phase(self.at_rest()));
+    }
+
     fn end(&mut self, reason: indigo_render::HaltReason, saves: bool) {
         let Some(run) = self.run.take() else { return };
-        let mut messages = Gathered::default();
-        let film = Arc::new(run.end(&reason, saves, &self.outlet, &mut messages));
+        let film = Arc::new(run.end(&reason, saves, &mut self.outlet));
         self.desk.set_film(Arc::new(film.film.clone()));
         self.film = Some(film);
-        self.tell(messages.0);
         self.outlet.send(Update::Phase(Phase::Halted(reason)));
         self.outlet.send(Update::Done);
     }
@@ -233,12 +289,8 @@ impl Worker {
     /// Goes on with the same film under other conditions.
     fn adjust(&mut self, work: &Work) {
         let Some(run) = &mut self.run else { return };
-        let mut messages = Gathered::default();
-        let went = run.adjust(work, &mut messages);
-        self.tell(messages.0);
-        match went {
-            Ok(()) => {}
-            Err(reason) => self.end(reason, true),
+        if let Err(reason) = run.adjust(work, &mut self.outlet) {
+            self.end(reason, true);
         }
     }
 
@@ -247,7 +299,7 @@ impl Worker {
         self.film = None;
         let Some(open) = &mut self.open else { return };
         let Some(scene) = Arc::get_mut(&mut open.scene) else {
-            return self.say(Weight::Warning, words::REGION_LATER.to_owned());
+            return self.say(Weight::Warning, words::REGION_LATER);
         };
         if let Err(error) = scene.set_region(region) {
             return self.say(Weight::Error, error.to_string());
@@ -264,9 +316,9 @@ impl Worker {
     }
 
     /// Writes all files of the render, on a thread of its own.
-    fn save_all(&self) {
-        let Some(run) = &self.run else { return };
-        let (job, film) = (run.job().clone(), run.film());
+    fn save_all(&mut self) {
+        let Some(run) = &mut self.run else { return };
+        let (job, film) = (run.job().clone(), run.film(&mut self.outlet));
         self.spawn_save(move |messages| {
             say_saved(&job.save(&film), messages);
         });
@@ -274,9 +326,10 @@ impl Worker {
 
     /// Writes one file of what is there now, on a thread of its own.
     fn save(&mut self, what: OneFile, path: PathBuf) {
-        let film = self.run.as_ref().map(Run::film).map(Arc::new).or_else(|| self.film.clone());
+        let growing = self.run.as_mut().map(|run| Arc::new(run.film(&mut self.outlet)));
+        let film = growing.or_else(|| self.film.clone());
         let (Some(film), Some(job)) = (film, self.job()) else {
-            return self.say(Weight::Error, words::NOTHING_TO_SAVE.to_owned());
+            return self.say(Weight::Error, words::NOTHING_TO_SAVE);
         };
         self.spawn_save(move |messages| match job.save_as(&film, what, &path) {
             Ok(path) => messages.say(&words::saved(&path)),
@@ -284,17 +337,10 @@ impl Worker {
         });
     }
 
-    fn spawn_save(&self, save: impl FnOnce(&mut Gathered) + Send + 'static) {
-        let outlet = self.outlet.clone();
+    fn spawn_save(&self, save: impl FnOnce(&mut Outlet) + Send + 'static) {
+        let mut outlet = self.outlet.clone();
         let thread = std::thread::Builder::new().name("save".to_owned());
-        let begun = thread.spawn(move || {
-            let mut messages = Gathered::default();
-            save(&mut messages);
-            for line in messages.0 {
-                outlet.send(Update::Line(line));
-            }
-        });
-        if let Err(error) = begun {
+        if let Err(error) = thread.spawn(move || save(&mut outlet)) {
             self.say(Weight::Error, error.to_string());
         }
     }

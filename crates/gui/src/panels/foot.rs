@@ -10,7 +10,10 @@ pub fn foot(ui: &mut Ui, state: &mut State) {
     ui.horizontal(|ui| {
         ui.selectable_value(&mut state.foot, Foot::Log, words::LOG);
         ui.selectable_value(&mut state.foot, Foot::Findings, words::findings(state.findings.len()));
-        if state.source_view.is_some() && ui.button(words::BACK).clicked() {
+        if let Some(status) = &state.slaves {
+            ui.selectable_value(&mut state.foot, Foot::Slaves, words::slaves(status.present));
+        }
+        if state.foot == Foot::Findings && state.source_view.is_some() && ui.button(words::BACK).clicked() {
             state.source_view = None;
         }
     });
@@ -18,6 +21,7 @@ pub fn foot(ui: &mut Ui, state: &mut State) {
         (Foot::Log, _) => log(ui, state),
         (Foot::Findings, Some(view)) => source(ui, view),
         (Foot::Findings, None) => findings(ui, state),
+        (Foot::Slaves, _) => super::slaves::slaves(ui, state.slaves.as_deref()),
     }
 }
 

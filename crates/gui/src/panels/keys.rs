@@ -1,7 +1,8 @@
 //! Keys, and the question before the window closes.
 
+use crate::action::{Action, Ask};
 use crate::engine::Command;
-use crate::state::{Action, Ask, State, Tab, Tool};
+use crate::state::{State, Tab, Tool};
 use crate::words;
 use eframe::egui::{Context, Grid, Id, Key, KeyboardShortcut, Modal, Modifiers, Popup, Window};
 use indigo_render::output::OneFile;
@@ -19,7 +20,7 @@ const COMMANDS: &[(Modifiers, Key, &str, Effect)] = &[
         }
     }),
     (Modifiers::COMMAND, Key::S, words::SAVE_NOW, |state| {
-        if state.is_under_way() {
+        if state.has_growing_film() {
             state.command(Command::SaveAll);
         }
     }),
@@ -27,6 +28,7 @@ const COMMANDS: &[(Modifiers, Key, &str, Effect)] = &[
     (Modifiers::COMMAND, Key::Num2, words::TAB_RENDER, |state| state.tab = Tab::Render),
     (Modifiers::COMMAND, Key::Num3, words::TAB_SCENE, |state| state.tab = Tab::Scene),
     (Modifiers::COMMAND, Key::Num4, words::TAB_QUEUE, |state| state.tab = Tab::Queue),
+    (Modifiers::COMMAND, Key::Num5, words::TAB_NETWORK, |state| state.tab = Tab::Network),
     (Modifiers::COMMAND, Key::R, words::RELOAD, |state| {
         if state.path.is_some() {
             state.act(Action::Restart);

@@ -2,9 +2,11 @@
 
 mod foot;
 mod keys;
+mod network;
 mod picture;
 mod queue;
 mod scene;
+mod slaves;
 mod status;
 mod tone;
 mod toolbar;
@@ -39,6 +41,7 @@ pub fn side(ui: &mut Ui, state: &mut State) {
             }
         }
         Tab::Queue => queue::queue(ui, state),
+        Tab::Network => network::network(ui, state),
     });
 }
 

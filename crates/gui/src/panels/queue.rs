@@ -1,8 +1,9 @@
 //! Scenes that are rendered one after another.
 
 use super::{head, row};
+use crate::action::{Action, Ask};
 use crate::queue::Turn;
-use crate::state::{Action, Ask, State};
+use crate::state::State;
 use crate::words;
 use eframe::egui::{Button, DragValue, Ui};
 

@@ -1,10 +1,11 @@
 //! How the picture is developed.
 
 use super::{head, row};
+use crate::action::Action;
 use crate::controls::{Controls, Mapper, read_response};
 use crate::engine::Histogram;
 use crate::log::{Line, Weight};
-use crate::state::{Action, State, Tool};
+use crate::state::{State, Tool};
 use crate::words;
 use eframe::egui::{
     Button, Checkbox, Color32, ComboBox, Mesh, Pos2, Rect, Response, Sense, Shape, Slider, Stroke, Ui, pos2,

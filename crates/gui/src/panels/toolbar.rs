@@ -1,8 +1,9 @@
 //! The tool bar: files, the render, the view.
 
+use crate::action::{Action, Ask};
 use crate::comparison::Layout;
 use crate::engine::{Command, Phase};
-use crate::state::{Action, Ask, State, Tool};
+use crate::state::{State, Tool};
 use crate::words;
 use eframe::egui::{Button, Ui};
 use indigo_render::output::OneFile;
@@ -59,7 +60,7 @@ fn save(ui: &mut Ui, state: &mut State) {
     let can_save = state.facts.is_some() && state.picture.is_some();
     ui.add_enabled_ui(can_save, |ui| {
         ui.menu_button(words::SAVE, |ui| {
-            if ui.add_enabled(state.is_under_way(), Button::new(words::SAVE_NOW)).clicked() {
+            if ui.add_enabled(state.has_growing_film(), Button::new(words::SAVE_NOW)).clicked() {
                 state.command(Command::SaveAll);
                 ui.close();
             }
@@ -86,20 +87,21 @@ fn render(ui: &mut Ui, state: &mut State) {
             state.command(Command::Cancel);
         }
     } else {
-        let is_possible = state.can_start() || matches!(state.phase, Phase::Rendering | Phase::Paused);
+        let is_possible = state.can_start() || state.has_growing_film() && !state.is_master();
         let text = match state.phase {
             Phase::Rendering => words::PAUSE,
             Phase::Paused => words::RESUME,
             Phase::Halted(_) => words::GO_ON,
             _ => words::START,
         };
-        let clicked =
-            ui.add_enabled_ui(is_possible, |ui| ui.add_sized(size, Button::new(text)).clicked()).inner;
-        if clicked {
+        let button = ui.add_enabled_ui(is_possible, |ui| ui.add_sized(size, Button::new(text))).inner;
+        let button =
+            if state.is_master() { button.on_disabled_hover_text(words::NO_PAUSE_OF_MANY) } else { button };
+        if button.clicked() {
             state.start_or_pause();
         }
     }
-    let can_stop = matches!(state.phase, Phase::Rendering | Phase::Paused);
+    let can_stop = matches!(state.phase, Phase::Rendering | Phase::Paused | Phase::Slave);
     if ui.add_enabled(can_stop, Button::new(words::STOP)).on_hover_text(words::STOP_HINT).clicked() {
         state.command(Command::Stop);
     }

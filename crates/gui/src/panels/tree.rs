@@ -1,8 +1,9 @@
 //! The elements of the scene, whose texts can be changed.
 
 use super::head;
+use crate::action::Action;
 use crate::scene_file::SceneFile;
-use crate::state::{Action, State};
+use crate::state::State;
 use crate::words;
 use eframe::egui::{Button, CollapsingHeader, TextEdit, Ui};
 use indigo_decl::Element;

@@ -1,8 +1,9 @@
 //! How the scene is rendered.
 
 use super::{head, row};
+use crate::action::Action;
 use crate::engine::Command;
-use crate::state::{Action, State, Tool};
+use crate::state::{State, Tool};
 use crate::words;
 use crate::work::{Mode, Sampling, Work};
 use eframe::egui::{Button, ComboBox, DragValue, Response, Ui};
@@ -26,7 +27,7 @@ pub fn work(ui: &mut Ui, state: &mut State) {
     state.work_is_new |= is_changed;
     if state.work_is_new && is_settled {
         state.work_is_new = false;
-        if state.is_under_way() {
+        if state.has_growing_film() {
             state.command(Command::Adjust(work));
         }
     }

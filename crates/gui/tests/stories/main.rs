@@ -2,6 +2,7 @@
 //!
 //! Without `DISPLAY` they fail: `cargo xtask test` provides a display.
 
+mod network;
 mod screen;
 
 use screen::{Screen, keys, scratch};
@@ -62,6 +63,20 @@ fn wait_for_picture(screen: &mut Screen) {
     });
 }
 
+/// How bright the picture is.
+fn light(screen: &Screen) -> f64 {
+    screen.see_picture().light()[1]
+}
+
+/// Asks a window to close in which something is rendered, and waits for its question: the picture behind it is much darker. By
+/// its mean, since a picture that took long to be developed may come yet. How bright it was before.
+fn ask_to_close(screen: &mut Screen) -> f64 {
+    let shown = light(screen);
+    screen.ask_to_close();
+    screen.wait_for("question", |screen| (light(screen) < 0.6 * shown).then_some(()));
+    shown
+}
+
 #[test]
 fn a_step_of_exposure_doubles_the_light_and_reset_takes_it_back() {
     let folder = scratch("exposure");
@@ -106,20 +121,15 @@ fn a_picture_grows_rests_is_saved_and_seen_again() {
     screen.press(&[keys::CONTROL, u32::from(b's')]);
     let png = folder.join("box.png");
     screen.wait_for("saved picture", |_| std::fs::metadata(&png).is_ok_and(|m| m.len() > 0).then_some(()));
-    // A render is not lost by closing: the window asks, and the picture behind the question is much darker. By its mean, since
-    // a picture that took long to be developed may come yet.
-    let light = |screen: &mut Screen| screen.see_picture().light()[1];
-    let shown = light(&mut screen);
-    screen.ask_to_close();
-    screen.wait_for("question", |screen| (light(screen) < 0.6 * shown).then_some(()));
+    // A render is not lost by closing.
+    let shown = ask_to_close(&mut screen);
     std::thread::sleep(Duration::from_millis(500));
     screen.see().keep("closing");
     screen.press(&[keys::ESCAPE]);
     screen.wait_for("the picture again", |screen| (light(screen) > 0.9 * shown).then_some(()));
     // The first answer is to save.
     std::fs::remove_file(&png).expect("the picture is there");
-    screen.ask_to_close();
-    screen.wait_for("question", |screen| (light(screen) < 0.6 * shown).then_some(()));
+    ask_to_close(&mut screen);
     screen.press(&[keys::TAB]);
     screen.press(&[keys::SPACE]);
     assert!(screen.wait_for_end());

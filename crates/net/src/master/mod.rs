@@ -18,7 +18,7 @@ use crate::page::{self, View};
 use crate::proto::farm_server::FarmServer;
 use crate::{NetError, tls};
 use bytes::Bytes;
-use indigo_film::{FilmRecord, MasterFilm, SavedFilm};
+use indigo_film::{FilmRecord, FilmState, MasterFilm, SavedFilm};
 use indigo_scene::{Identity, Scene};
 use rooms::Rooms;
 use roster::{Refusals, Roster};
@@ -246,6 +246,11 @@ impl Master {
     /// A copy of the film to be saved, by [`saved`](Self::saved) if that succeeds.
     pub fn copy(&self) -> SavedFilm {
         self.shared.ledger().copy()
+    }
+
+    /// The film's sums as they stand, to be looked at.
+    pub fn sums(&self) -> FilmState {
+        self.shared.ledger().sums().clone()
     }
 
     /// A copy is on the disk, with this record: slaves need not keep what is in it.

@@ -1,8 +1,8 @@
 //! A picture's name is one render's at a time: two would write over each other's film, again and again.
 
-use indigo_front::messages::Messages;
-use indigo_front::paths;
-use indigo_front::status::FAILED;
+use crate::messages::Messages;
+use crate::paths;
+use crate::status::FAILED;
 use std::fs::{File, TryLockError};
 use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::path::{Path, PathBuf};

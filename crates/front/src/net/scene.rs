@@ -1,8 +1,8 @@
 //! Loading a master's scene on a slave.
 
+use crate::paths;
 use indigo_decl::{ResolveError, Resolved, Resolver};
 use indigo_diag::{Severity, Style, to_text};
-use indigo_front::paths;
 use indigo_igs::Limits;
 use indigo_igs::pack::{PackLimits, PackResolver};
 use indigo_net::slave::{Loader, SceneFiles};

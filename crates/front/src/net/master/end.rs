@@ -1,0 +1,105 @@
+//! The end of a render of many machines.
+
+use super::{MasterRender, PULSE, say_added};
+use crate::messages::{Messages, count, say_saved};
+use indigo_film::SavedFilm;
+use indigo_render::{HaltReason, Progress};
+use std::time::{Duration, Instant};
+
+/// How long slaves have, at the end, to begin sending what they have.
+const GRACE: Duration = Duration::from_secs(20);
+/// How long they have in all, if they do.
+const LONGEST_GRACE: Duration = Duration::from_mins(5);
+/// How long they have to hear that everything is saved: some reports.
+const FAREWELL: Duration = Duration::from_secs(5);
+
+/// A render that has all it will get, and is not saved yet.
+pub struct Gathered {
+    render: MasterRender,
+    /// How far it came, with the last of the slaves' samples, and the time that they took to come.
+    pub progress: Progress,
+    /// Whether fewer samples came than were asked for and rendered, since slaves are gone that had them.
+    pub lacks_samples: bool,
+}
+
+impl MasterRender {
+    /// Ends what is rendered here and by slaves; how many of these are waited for, for what they have left.
+    pub fn begin_end(&mut self, messages: &mut dyn Messages) -> Option<String> {
+        self.master.begin_end();
+        let program = &self.saver.job().version;
+        let added = self.own.as_mut().map_or(Ok(None), |own| own.end(&self.master, program));
+        say_added(&added, messages);
+        (!self.master.has_all()).then(|| count(self.master.status().present, "slave"))
+    }
+
+    /// Gathers the last of what there is, after [`begin_end`](Self::begin_end).
+    pub fn gather(mut self, reason: &HaltReason, messages: &mut dyn Messages) -> Gathered {
+        self.wait_for_rest(messages);
+        if let Some(record) = self.saver.wait_for_last(messages) {
+            self.master.saved(record);
+        }
+        self.tell_events(messages);
+        let lacks_samples = *reason == HaltReason::Samples && !self.has_enough(false);
+        Gathered { progress: self.progress(), lacks_samples, render: self }
+    }
+
+    /// Ends the connections without waiting or saving; the film. Slaves keep what is in no file, should there be a master again.
+    pub fn discard(mut self, messages: &mut dyn Messages) -> SavedFilm {
+        self.master.close();
+        self.film(messages)
+    }
+
+    /// Waits for what slaves have left. Those that send may need longer than those that are silent, which a slave that was
+    /// killed is.
+    fn wait_for_rest(&self, messages: &mut dyn Messages) {
+        let start = Instant::now();
+        let (mut seen, mut last_news) = (0, start);
+        while !self.master.has_all() && last_news.elapsed() < GRACE && start.elapsed() < LONGEST_GRACE {
+            if let Ok(event) = self.events.recv_timeout(PULSE) {
+                messages.event(&event);
+            }
+            let status = self.master.status();
+            let news = status.samples.wrapping_add(status.bytes_received);
+            if news != seen {
+                (seen, last_news) = (news, Instant::now());
+            }
+        }
+    }
+
+    /// Waits until slaves have heard that all they sent is in a file, and have left. Who does not hear of it would only send
+    /// it once more, to a master that goes on with that file.
+    fn see_off(&self, messages: &mut dyn Messages) {
+        let start = Instant::now();
+        while !self.master.is_deserted() && start.elapsed() < FAREWELL {
+            if let Ok(event) = self.events.recv_timeout(PULSE) {
+                messages.event(&event);
+            }
+        }
+        self.tell_events(messages);
+    }
+}
+
+impl Gathered {
+    /// Saves it, and ends the connections; the film, and whether all its files were written.
+    pub fn save(self, messages: &mut dyn Messages) -> (SavedFilm, bool) {
+        let Self { mut render, .. } = self;
+        let mut film = render.copy(messages);
+        let mut saved = render.job().save(&film);
+        if saved.written.contains(&render.job().paths.igi())
+            && let Some(record) = film.record.clone()
+        {
+            let runs = record.runs.clone();
+            render.master.saved(record);
+            render.see_off(messages);
+            render.master.close();
+            // Somebody who was given up has come after all.
+            let last = render.copy(messages);
+            if last.record.as_ref().is_some_and(|record| record.runs != runs) {
+                saved = render.job().save(&last);
+                film = last;
+            }
+        }
+        let is_saved = say_saved(&saved, messages);
+        (film, is_saved)
+    }
+}

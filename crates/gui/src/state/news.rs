@@ -1,0 +1,124 @@
+//! What the window learns from its engine.
+
+use super::{Foot, State};
+use crate::action::Action;
+use crate::controls::Controls;
+use crate::engine::{LoadedFacts, Phase, Update};
+use crate::log::Weight;
+use crate::work::{Mode, Work};
+use std::path::Path;
+
+impl State {
+    /// Takes news of the engine.
+    pub fn take(&mut self, update: Update) {
+        match update {
+            Update::Phase(phase) => self.take_phase(phase),
+            Update::Scene(facts) => self.take_scene(*facts),
+            Update::Findings(findings, sources) => {
+                if findings.iter().any(|finding| finding.weight != Weight::Info) {
+                    self.foot = Foot::Findings;
+                }
+                (self.findings, self.sources, self.source_view) = (findings, sources, None);
+            }
+            Update::Film(settings, path) => {
+                self.facts = None;
+                self.path = Some(path.display().to_string());
+                self.controls = Some(Controls::of(&settings));
+                self.base = Some(*settings);
+                (self.work, self.mode, self.progress) = (None, None, None);
+            }
+            Update::Progress(progress, memory) => (self.progress, self.memory) = (Some(progress), memory),
+            Update::Slaves(status) => {
+                if self.slaves.is_none() {
+                    self.foot = Foot::Slaves;
+                }
+                self.slaves = Some(status);
+            }
+            Update::Line(line) => self.log.add(line),
+            Update::Done => self.scene_is_done(),
+            Update::Gone => self.act(Action::Close),
+        }
+    }
+
+    fn take_phase(&mut self, phase: Phase) {
+        // What is rendered next may have no slaves; those of a render that has ended are still worth a look.
+        if phase == Phase::Rendering && self.phase != Phase::Paused || phase == Phase::Slave {
+            self.slaves = None;
+            if phase == Phase::Slave {
+                self.progress = None;
+            }
+            if self.foot == Foot::Slaves {
+                self.foot = Foot::Log;
+            }
+        }
+        self.phase = phase;
+    }
+
+    fn take_scene(&mut self, facts: LoadedFacts) {
+        let is_same = self.facts.as_ref().is_some_and(|old| old.path == facts.path && old.size == facts.size);
+        if !is_same {
+            self.view.fit();
+            self.picture = None;
+            self.work = None;
+        }
+        self.progress = None;
+        self.file = None;
+        // What was tried out on the same scene stays.
+        if !is_same || self.controls.is_none() {
+            self.controls = Some(Controls::of(&facts.picture));
+        }
+        self.base = Some(facts.picture.clone());
+        self.work.get_or_insert(Work::of(&facts.output, self.arguments.halt_error));
+        self.mode = Some(Mode::of(&facts.transport));
+        self.recent.add(Path::new(&facts.path));
+        self.path = Some(facts.path.clone());
+        self.facts = Some(facts);
+        self.controls_changed();
+    }
+
+    /// The next scene of the queue, if it runs.
+    fn scene_is_done(&mut self) {
+        if self.queue.done() {
+            self.act(Action::RunQueue);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::Command;
+    use crate::log::Finding;
+    use crate::recent::Recent;
+    use indigo_front::flags::Arguments;
+    use indigo_imaging::{Exposure, PictureSettings, ToneMapping};
+    use std::sync::Arc;
+
+    fn state() -> State {
+        State::new(Arguments::default(), Recent::default())
+    }
+
+    #[test]
+    fn a_film_alone_has_controls_but_no_work() {
+        let mut state = state();
+        let exposure = Exposure { aperture_area: 1.0, lens_sensor_dist: 1.0, duration: 1.0 };
+        let settings = PictureSettings::plain(ToneMapping::Linear { scale: 2.0 }, exposure);
+        state.take(Update::Film(Box::new(settings), "a.igi".into()));
+        assert_eq!(state.controls.as_ref().map(|c| c.scale), Some(2.0));
+        assert!(!state.can_start() && state.work.is_none());
+        state.brighten(1.0);
+        assert_eq!(state.controls.as_ref().map(|c| c.scale), Some(4.0));
+        assert!(matches!(state.actions.last(), Some(Action::Command(Command::SetPicture(_)))));
+        state.reset_controls();
+        assert_eq!(state.controls.as_ref().map(|c| c.scale), Some(2.0));
+    }
+
+    #[test]
+    fn what_is_wrong_in_a_scene_is_shown() {
+        let mut state = state();
+        let finding =
+            Finding { weight: Weight::Warning, head: String::new(), full: String::new(), span: None };
+        state.take(Update::Findings(vec![finding], Arc::default()));
+        assert_eq!(state.foot, Foot::Findings);
+    }
+}
