@@ -192,7 +192,6 @@ mod tests {
     use super::*;
     use indigo_film::{FilmSize, LayerKind};
     use indigo_imaging::{Exposure, ToneMapping};
-    use std::sync::mpsc::channel;
 
     fn settings(scale: f64) -> PictureSettings {
         let exposure = Exposure { aperture_area: 1.0, lens_sensor_dist: 1.0, duration: 1.0 };
@@ -211,7 +210,7 @@ mod tests {
     #[test]
     fn each_change_is_shown_in_the_end() {
         let desk = Desk::default();
-        let (woken, waking) = channel();
+        let (woken, waking) = std::sync::mpsc::channel();
         std::thread::scope(|scope| {
             scope.spawn(|| desk.work(&move || _ = woken.send(())));
             let wait = || {

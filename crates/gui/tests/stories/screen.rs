@@ -70,7 +70,7 @@ pub struct Screen {
     connection: RustConnection,
     root: WindowId,
     window: WindowId,
-    program: Child,
+    pub program: Child,
     size: [u16; 2],
     _alone: MutexGuard<'static, ()>,
 }

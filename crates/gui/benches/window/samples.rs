@@ -1,0 +1,82 @@
+//! The time to a number of samples, by the window and by the console, in turn.
+
+use crate::screen::Screen;
+use crate::{median, scene};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::Instant;
+
+const PAIRS: usize = 5;
+const SAMPLES_PER_PIXEL: &str = "40";
+const SIZE: [u16; 2] = [1280, 800];
+
+/// Seconds of a run.
+struct Taken {
+    /// Of rendering, as the picture tells.
+    rendering: f64,
+    /// From the start of the program until the picture was there.
+    all: f64,
+}
+
+/// Measures, and tells.
+pub fn measure(folder: &Path) {
+    println!(
+        "seconds to {SAMPLES_PER_PIXEL} samples per pixel: rendering (and all until the picture was there)"
+    );
+    let mut ratios = vec![];
+    for _ in 0..PAIRS {
+        let (console, window) = (by_console(folder), by_window(folder));
+        let ratio = window.rendering / console.rendering;
+        println!(
+            "  console {:.2} ({:.2}), window {:.2} ({:.2}): {:+.1} %",
+            console.rendering,
+            console.all,
+            window.rendering,
+            window.all,
+            100.0 * (ratio - 1.0)
+        );
+        ratios.push(ratio);
+    }
+    println!("  median {:+.1} %", 100.0 * (median(ratios) - 1.0));
+}
+
+/// The console that was built beside the window.
+fn console() -> PathBuf {
+    let window = Path::new(env!("CARGO_BIN_EXE_indigo"));
+    window.with_file_name(format!("indigo_console{}", std::env::consts::EXE_SUFFIX))
+}
+
+fn by_console(folder: &Path) -> Taken {
+    let picture = folder.join("console.png");
+    let start = Instant::now();
+    let status = Command::new(console())
+        .args([&*scene(), "-haltspp", SAMPLES_PER_PIXEL, "-o"])
+        .arg(&picture)
+        .env("INDIGO_CACHE", folder)
+        .stdin(Stdio::null())
+        .stderr(Stdio::null())
+        .status();
+    let all = start.elapsed().as_secs_f64();
+    assert!(status.expect("the console starts: cargo xtask bench window builds it").success());
+    Taken { rendering: told_by(&picture), all }
+}
+
+fn by_window(folder: &Path) -> Taken {
+    let picture = folder.join("window.png");
+    drop(std::fs::remove_file(&picture));
+    let start = Instant::now();
+    let name = picture.display().to_string();
+    let mut screen = Screen::start(folder, SIZE, &[&scene(), "-haltspp", SAMPLES_PER_PIXEL, "-o", &name]);
+    screen.wait_for("picture", |_| picture.exists().then_some(()));
+    Taken { rendering: told_by(&picture), all: start.elapsed().as_secs_f64() }
+}
+
+/// What a picture says of the time that rendering it took.
+fn told_by(picture: &Path) -> f64 {
+    let told =
+        Command::new(console()).arg("--dumpmetadata").arg(picture).output().expect("the console starts");
+    let told = String::from_utf8_lossy(&told.stdout);
+    let line = told.lines().find_map(|line| line.split_once("render time elapsed"));
+    let number = line.map(|(_, value)| value.trim_matches(|c: char| !c.is_ascii_digit() && c != '.'));
+    number.and_then(|number| number.parse().ok()).unwrap_or_else(|| panic!("no time in {told}"))
+}
