@@ -107,7 +107,7 @@ fn run(arguments: &Arguments, console: &mut Console) -> u8 {
         Err(error) => return films::fail(&error, console),
     };
     let start = Instant::now();
-    let (loaded, read) = match load_scene(scene, arguments) {
+    let (loaded, read) = match load_scene(scene, arguments, None) {
         Ok(loaded) => loaded,
         Err(message) => return refuse_scene(scene, message, arguments, console),
     };

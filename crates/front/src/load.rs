@@ -7,15 +7,21 @@ use indigo_igs::Limits;
 use indigo_igs::pack::{MaterialPacks, PackLimits};
 use indigo_render::disk::{DiskResolver, DiskTreeStore};
 use indigo_render::pool::with_jobs;
-use indigo_scene::{LoadOptions, Loaded, load};
+use indigo_scene::{LoadOptions, Loaded, Stop, load};
 use std::path::PathBuf;
 
-/// A scene, and the files that it was read from.
+/// A scene, unless that was stopped, and the files that it was read from.
 ///
 /// # Errors
 /// Why a packed scene is not read.
-pub fn load_scene(path: &str, arguments: &Arguments) -> Result<(Loaded, Vec<PathBuf>), String> {
-    with_load_options(path, arguments, |options| with_jobs(logical_cores(), || load(path, options)))
+pub fn load_scene(
+    path: &str,
+    arguments: &Arguments,
+    stop: Option<&Stop>,
+) -> Result<(Loaded, Vec<PathBuf>), String> {
+    with_load_options(path, arguments, |options| {
+        with_jobs(logical_cores(), || load(path, &LoadOptions { stop, ..*options }))
+    })
 }
 
 /// Calls `load` with what the command line and this machine add to a scene; what it gives, and the files that it read.
@@ -36,6 +42,7 @@ pub fn with_load_options<T>(
             overrides: &arguments.settings,
             limits: Limits::default(),
             check_only: arguments.check || arguments.print_settings,
+            stop: None,
         })
     })
 }

@@ -5,6 +5,7 @@ use crate::mesh::TriangleMesh;
 use crate::object::Object;
 use crate::ray::{Hit, Ray};
 use crate::shapes::{hit_plane, hit_sphere};
+use crate::stop::Stop;
 use crate::store::TreeStore;
 use crate::traverse::{Kernel, NoSpecials, Portable, RawHit, Specials, View};
 use crate::trees::Trees;
@@ -22,11 +23,18 @@ pub struct BuildOptions {
     pub bake_limit: usize,
     /// Which kernel traces.
     pub kernel: KernelChoice,
+    /// Ends building early, with [`BuildError::Stopped`].
+    pub stop: Stop,
 }
 
 impl Default for BuildOptions {
     fn default() -> Self {
-        Self { fast_threshold: 1_100_000, bake_limit: 20_000, kernel: KernelChoice::Fastest }
+        Self {
+            fast_threshold: 1_100_000,
+            bake_limit: 20_000,
+            kernel: KernelChoice::Fastest,
+            stop: Stop::default(),
+        }
     }
 }
 
@@ -65,6 +73,9 @@ pub enum BuildError {
     /// More than [`TriangleMesh::MAX_TRIANGLES`] triangles in all trees, as many objects, or 2^32 vertices.
     #[error("a scene of {0} triangles, vertices or objects is too large")]
     TooLarge(usize),
+    /// The trees are not wanted any more.
+    #[error("building was stopped")]
+    Stopped,
 }
 
 /// What an [`Accel`] holds.

@@ -6,6 +6,7 @@
 
 use crate::build::{Builder, TRIANGLE_DEPTH, build_triangles, is_traceable};
 use crate::soup::Soup;
+use crate::stop::Stop;
 use crate::store::TreeStore;
 use crate::wide::{Block, Box3, Child, Node, WideTree, stack_need};
 
@@ -17,19 +18,24 @@ const NODE: usize = (6 * 8 + 8) * 4;
 const BLOCK: usize = (9 * 8 + 8) * 4;
 const HASH: usize = 32;
 
-/// A tree over the triangles, how many were left out, and whether it came from the store.
-pub(crate) fn load_or_build(soup: &Soup, builder: Builder, store: &dyn TreeStore) -> (WideTree, usize, bool) {
+/// A tree over the triangles, how many were left out, and whether it came from the store; `None` where that was stopped.
+pub(crate) fn load_or_build(
+    soup: &Soup,
+    builder: Builder,
+    store: &dyn TreeStore,
+    stop: &Stop,
+) -> Option<(WideTree, usize, bool)> {
     if !store.is_active() || soup.triangles.is_empty() {
-        let (tree, skipped) = build_triangles(soup, builder);
-        return (tree, skipped, false);
+        let (tree, skipped) = build_triangles(soup, builder, stop)?;
+        return Some((tree, skipped, false));
     }
     let key = key(soup, builder);
     if let Some((tree, skipped)) = store.load(&key).and_then(|bytes| decode(&bytes, soup, builder)) {
-        return (tree, skipped, true);
+        return Some((tree, skipped, true));
     }
-    let (tree, skipped) = build_triangles(soup, builder);
+    let (tree, skipped) = build_triangles(soup, builder, stop)?;
     store.store(&key, &encode(&tree, skipped, builder));
-    (tree, skipped, false)
+    Some((tree, skipped, false))
 }
 
 fn builder_number(builder: Builder) -> u32 {

@@ -1,6 +1,7 @@
 //! The tree above the trees: instances, spheres, and the baked tree opened into a few subtrees.
 
 use crate::build::{LeafMaker, Prim, Size, TOP_DEPTH, collapse, split_all};
+use crate::stop::Stop;
 use crate::wide::{Box3, Child, Node};
 use indigo_math::{Bounds3, Transform, Vec3d};
 
@@ -35,7 +36,7 @@ pub(crate) fn build_top(items: &[TopItem], nodes: &mut Vec<Node>) -> (Child, Box
     }
     let prim = |(i, item): (usize, &TopItem)| Prim::new(&item.bounds, i as u32);
     let mut prims: Vec<Prim> = items.iter().enumerate().map(prim).collect();
-    let binary = split_all(&mut prims, 1, TOP_DEPTH);
+    let binary = split_all(&mut prims, 1, TOP_DEPTH, &Stop::default());
     let first = Size { nodes: nodes.len(), blocks: 0 };
     let (upper, _, root) = collapse(&binary, &prims, &Items(items), first);
     nodes.extend(upper);

@@ -53,11 +53,11 @@ impl Trees {
         plan.check(meshes, objects)?;
         let mut forest = Forest { nodes: Vec::new(), blocks: Vec::new(), stats: Stats::default(), trees: 0 };
         let (soup, baked) = bake(meshes, objects, &plan.baked);
-        let (mut root, mut bounds) = forest.add(&soup, options, store);
+        let (mut root, mut bounds) = forest.add(&soup, options, store)?;
         drop(soup);
         let mut roots = vec![(Child::NONE, Box3::EMPTY); meshes.len()];
         for &mesh in &plan.instanced {
-            roots[mesh as usize] = forest.add(&Soup::of(&meshes[mesh as usize]), options, store);
+            roots[mesh as usize] = forest.add(&Soup::of(&meshes[mesh as usize]), options, store)?;
         }
         let (mut items, specials) = special_items(objects, &plan, &roots);
         if !items.is_empty() {
@@ -107,21 +107,28 @@ struct Forest {
 
 impl Forest {
     /// Adds the tree of some triangles; returns its root and box.
-    fn add(&mut self, soup: &Soup, options: &BuildOptions, store: &dyn TreeStore) -> (Child, Box3) {
-        let (tree, skipped, loaded) = load_or_build(soup, options.builder_for(soup.triangles.len()), store);
+    fn add(
+        &mut self,
+        soup: &Soup,
+        options: &BuildOptions,
+        store: &dyn TreeStore,
+    ) -> Result<(Child, Box3), BuildError> {
+        let builder = options.builder_for(soup.triangles.len());
+        let built = load_or_build(soup, builder, store, &options.stop);
+        let (tree, skipped, loaded) = built.ok_or(BuildError::Stopped)?;
         self.stats.triangles += soup.triangles.len() - skipped;
         self.stats.skipped_triangles += skipped;
         self.stats.trees_loaded += usize::from(loaded);
         self.trees += 1;
         if self.nodes.is_empty() && self.blocks.is_empty() {
             (self.nodes, self.blocks) = (tree.nodes, tree.blocks);
-            return (tree.root, tree.bounds);
+            return Ok((tree.root, tree.bounds));
         }
         let (n, b) = (self.nodes.len(), self.blocks.len());
         let moved = |node: &Node| Node { children: node.children.map(|c| c.moved(n, b)), ..*node };
         self.nodes.extend(tree.nodes.iter().map(moved));
         self.blocks.extend(tree.blocks);
-        (tree.root.moved(n, b), tree.bounds)
+        Ok((tree.root.moved(n, b), tree.bounds))
     }
 }
 

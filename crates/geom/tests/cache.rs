@@ -3,7 +3,7 @@
 mod common;
 
 use common::{Random, bumpy_sphere, place, ray};
-use indigo_geom::{Accel, BuildOptions, Hit, TreeStore, TriangleMesh};
+use indigo_geom::{Accel, BuildError, BuildOptions, Hit, Stop, TreeStore, TriangleMesh};
 use indigo_math::{Transform, Vec3d};
 use std::collections::HashMap;
 use std::sync::Mutex;
@@ -120,5 +120,32 @@ fn empty_and_foreign_bytes_are_no_tree() {
         let accel = build(&meshes(), &options(), &store);
         assert_eq!(accel.stats().trees_loaded, 0);
         assert_eq!(hits(&accel), expected);
+    }
+}
+
+/// Asks for the end when the first tree is looked for.
+#[derive(Default)]
+struct Impatient(Stop, Memory);
+
+impl TreeStore for Impatient {
+    fn load(&self, key: &[u8; 32]) -> Option<Vec<u8>> {
+        self.0.set();
+        self.1.load(key)
+    }
+    fn store(&self, key: &[u8; 32], bytes: &[u8]) {
+        self.1.store(key, bytes);
+    }
+}
+
+#[test]
+fn building_ends_when_it_is_stopped_and_keeps_nothing() {
+    for fast_threshold in [0, usize::MAX] {
+        let store = Impatient::default();
+        let options = BuildOptions { fast_threshold, stop: store.0.clone(), ..options() };
+        let objects = vec![place(0, Transform::IDENTITY)];
+        // More triangles than one thread splits alone.
+        let built = Accel::build(vec![bumpy_sphere(100)], objects, &options, &store);
+        assert_eq!(built.err(), Some(BuildError::Stopped));
+        assert!(store.1.0.lock().unwrap().is_empty(), "half a tree");
     }
 }

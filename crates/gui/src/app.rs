@@ -23,6 +23,9 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 /// Where the files that were opened lately are remembered.
 const RECENT: &str = "recent";
 
+/// Endings of pictures to compare with.
+const PICTURES: &[&str] = &["png", "exr", "jpg", "jpeg", "tif", "tiff", "hdr"];
+
 /// What comes back from threads that wait for the user or a disk.
 enum Answer {
     /// A path for what was asked.
@@ -151,9 +154,10 @@ impl App {
         let (Some(path), Some(controls)) = (self.state.path.clone(), self.state.controls.clone()) else {
             return;
         };
+        let has_filter = self.state.base.as_ref().is_some_and(|base| base.diffraction.is_some());
         let (answer, context) = (self.answer.clone(), context.clone());
         self.spawn("settings", move || {
-            let written = SceneFile::read(&path).and_then(|file| file.save_controls(&controls));
+            let written = SceneFile::read(&path).and_then(|file| file.save_controls(&controls, has_filter));
             drop(answer.send(Answer::Written(written)));
             context.request_repaint();
         });
@@ -183,14 +187,14 @@ impl App {
                 Action::Open(path) => {
                     // Who opens a scene wants that one next.
                     self.state.queue.runs = false;
-                    self.open(&path, true);
+                    self.open(&path, true, context);
                 }
                 Action::Ask(ask) => self.ask(ask, context),
                 Action::Restart => {
                     if let Some(request) = self.state.request_in_mode() {
                         self.load(request);
                     } else if let Some(path) = self.state.path.clone() {
-                        self.open(Path::new(&path), false);
+                        self.open(Path::new(&path), false, context);
                     }
                 }
                 Action::ReadElements => self.read_elements(context),
@@ -212,10 +216,14 @@ impl App {
         self.send(command);
     }
 
-    /// Opens a scene or a film, by its ending.
-    fn open(&mut self, path: &Path, starts: bool) {
-        let is_film = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("igi"));
-        if is_film {
+    /// Opens a scene, a film, or a picture to compare with, by its ending.
+    fn open(&mut self, path: &Path, starts: bool, context: &Context) {
+        let is_one_of = |endings: &[&str]| {
+            path.extension().is_some_and(|ending| endings.iter().any(|one| ending.eq_ignore_ascii_case(one)))
+        };
+        if is_one_of(PICTURES) {
+            self.asked(Ask::Compare, path.to_path_buf(), context);
+        } else if is_one_of(&["igi"]) {
             self.send(Command::OpenFilm(path.to_path_buf()));
             self.state.recent.add(path);
         } else if let Some(path) = path.to_str() {
@@ -261,9 +269,7 @@ impl App {
                 Box::pin(dialog.add_filter(words::SCENES_AND_FILMS, &["igs", "pigs", "igi"]).pick_file())
             }
             Ask::Queue => Box::pin(dialog.add_filter(words::SCENES, scenes).pick_file()),
-            Ask::Compare => {
-                Box::pin(dialog.add_filter(words::PICTURES, &["png", "exr", "jpg", "tif", "hdr"]).pick_file())
-            }
+            Ask::Compare => Box::pin(dialog.add_filter(words::PICTURES, PICTURES).pick_file()),
             Ask::Key => Box::pin(dialog.pick_file()),
             Ask::NewKey => Box::pin(dialog.set_file_name(words::KEY_NAME).save_file()),
             Ask::Save(what) => {

@@ -62,16 +62,17 @@ impl SceneFile {
         self.write(&edits)
     }
 
-    /// Writes how the picture is developed into the scene; the files that were written.
+    /// Writes how the picture is developed into the scene; the files that were written. Diffraction is a filter of the picture only
+    /// where `has_filter`.
     ///
     /// # Errors
     /// As [`save`](Self::save).
-    pub fn save_controls(&self, controls: &Controls) -> Result<Vec<PathBuf>, String> {
-        let edits = self.edits_of(controls).map_err(|error| error.to_string())?;
+    pub fn save_controls(&self, controls: &Controls, has_filter: bool) -> Result<Vec<PathBuf>, String> {
+        let edits = self.edits_of(controls, has_filter).map_err(|error| error.to_string())?;
         self.write(&edits)
     }
 
-    fn edits_of(&self, controls: &Controls) -> Result<Edits, EditError> {
+    fn edits_of(&self, controls: &Controls, has_filter: bool) -> Result<Edits, EditError> {
         let mut edits = Edits::default();
         let (kind, values) = mapping(controls);
         let other = self.root.child("tonemapping").and_then(|t| t.children.iter().find(|c| &*c.name != kind));
@@ -93,6 +94,11 @@ impl SceneFile {
             }
             (false, Some(bloom)) => edits.remove(bloom),
             (false, None) => {}
+        }
+        // Without the filter there is nothing to switch: none is wanted, or rays are diffracted already.
+        if has_filter {
+            let diffracts = controls.diffraction.to_string();
+            edits.set_child(&self.root, "renderer_settings/aperture_diffraction", &diffracts)?;
         }
         Ok(edits)
     }
@@ -188,7 +194,7 @@ mod tests {
         let path = scene("settings");
         let read = || SceneFile::read(path.to_str().unwrap()).unwrap();
         let text = || std::fs::read_to_string(&path).unwrap();
-        assert_eq!(read().save_controls(&controls()).unwrap(), std::slice::from_ref(&path));
+        assert_eq!(read().save_controls(&controls(), false).unwrap(), std::slice::from_ref(&path));
         assert_eq!(
             text(),
             SCENE
@@ -196,14 +202,16 @@ mod tests {
                 .replace("<!-- here -->\n", "<!-- here -->\n    <white_balance>D50</white_balance>\n")
         );
         let mut other = Controls { mapper: Mapper::Camera, ev: 1.5, bloom: true, ..controls() };
-        read().save_controls(&other).unwrap();
+        read().save_controls(&other, false).unwrap();
+        assert!(!text().contains("diffraction"), "{}", text());
         for part in ["<ev_adjust>1.5</ev_adjust>", "<!-- mine -->", "<!-- here -->", "<bloom>"] {
             assert!(text().contains(part), "{part}: {}", text());
         }
         assert!(!text().contains("<linear>"), "{}", text());
         other.bloom = false;
-        read().save_controls(&other).unwrap();
+        read().save_controls(&other, true).unwrap();
         assert!(!text().contains("<bloom>"), "{}", text());
+        assert!(text().contains("<aperture_diffraction>false</aperture_diffraction>"), "{}", text());
         std::fs::remove_file(&path).unwrap();
     }
 

@@ -21,55 +21,55 @@ texts! {
 texts! {
     OPEN = "Open";
     OPEN_FILE = "Open a scene or film…";
-    RELOAD = "Load the scene again";
-    RECENT = "Opened lately";
+    RELOAD = "Reload the scene";
+    RECENT = "Recent files";
     NONE = "none";
     SAVE = "Save";
-    SAVE_NOW = "Save the render's files now";
-    SAVE_PICTURE = "Save the picture (PNG) as…";
-    SAVE_EXR = "Save luminances (EXR) as…";
-    SAVE_FILM = "Save the film (IGI) as…";
+    SAVE_NOW = "Save all files of the render now";
+    SAVE_PICTURE = "Save picture as PNG…";
+    SAVE_EXR = "Save luminances as EXR…";
+    SAVE_FILM = "Save film as IGI…";
     START = "Start";
     PAUSE = "Pause";
     RESUME = "Resume";
-    GO_ON = "Go on";
+    GO_ON = "Continue";
     CANCEL = "Cancel";
     STOP = "Stop";
-    STOP_HINT = "End the render and save its files; the film stays, so that it can go on";
-    START_OR_PAUSE = "Start, pause, or go on";
+    STOP_HINT = "End the render and save its files; the film is kept, so that it can be continued";
+    START_OR_PAUSE = "Start, pause or continue";
     FIT = "Fit";
-    FIT_HINT = "Show all of the picture";
+    FIT_HINT = "Show the whole picture";
     ONE_TO_ONE = "1:1";
-    ONE_TO_ONE_HINT = "Show each pixel as one of the screen";
-    PAN = "Move";
+    ONE_TO_ONE_HINT = "Show one pixel of the picture per pixel of the screen";
+    PAN = "Pan";
     PAN_HINT = "Drag to move the picture";
     GREY = "Grey point";
-    GREY_HINT = "Click on something that should be grey";
+    GREY_HINT = "Click something that should be grey";
     REGION = "Region";
-    REGION_HINT = "Drag a rectangle: only this part is rendered, from the start";
+    REGION_HINT = "Drag a rectangle: only that part is rendered, from the start";
     COMPARE = "Compare";
     COMPARE_WITH = "With a saved picture…";
     TAB_PICTURE = "Show how the picture is developed";
     TAB_RENDER = "Show how the scene is rendered";
-    TAB_SCENE = "Show what the scene holds";
+    TAB_SCENE = "Show what the scene contains";
     TAB_QUEUE = "Show the queue";
-    TAB_NETWORK = "Show rendering on many machines";
+    TAB_NETWORK = "Show network rendering";
     THEME_SHORT = "Theme";
     THEME = "Switch between dark and light";
     KEYS = "Keys";
-    KEYS_HINT = "Show what keys do";
+    KEYS_HINT = "Show the keyboard shortcuts";
     WHEEL = "Wheel";
-    WHEEL_HINT = "Zoom at the pointer; the middle button moves the picture, the right one the line of a comparison";
+    WHEEL_HINT = "Zoom at the pointer; the middle button pans, the right one moves the line of a comparison";
     TAB_KEY = "Tab";
-    TAB_HINT = "Go to the next control; arrows change it, Space or Enter presses it";
-    BRIGHTER = "Brighter by half a stop";
-    DARKER = "Darker by half a stop";
+    TAB_HINT = "Go to the next control; arrow keys change it, Space or Enter presses it";
+    BRIGHTER = "Half a stop brighter";
+    DARKER = "Half a stop darker";
 }
 
 // Development.
 texts! {
     NOTHING_OPEN = "Nothing is open";
-    HISTOGRAM_HINT = "How often each brightness is there, from black to white";
+    HISTOGRAM_HINT = "How many pixels have each brightness, from black to white";
     TONE_MAPPING = "Tone mapping";
     MAPPER = "Method";
     SCALE = "Scale";
@@ -80,20 +80,20 @@ texts! {
     EV_HINT = "Each step of 1 doubles the exposure";
     ISO = "Film ISO";
     RESPONSE = "Response";
-    CURVE_HINT = "The response: brightness over irradiance, for red, green and blue";
-    NO_CURVE = "these are no response curves";
+    CURVE_HINT = "The response: brightness against exposure, for red, green and blue";
+    NO_CURVE = "these are not response curves";
     WHITE_BALANCE = "White balance";
     WHITE = "White";
-    PICK_GREY = "Take a grey point";
+    PICK_GREY = "Pick a grey point";
     NO_GREY = "this point is too dark to have a colour";
     OPTICS = "Optics";
-    DIFFRACTION = "Diffraction by the aperture";
+    DIFFRACTION = "Aperture diffraction";
     NO_DIFFRACTION = "This scene has no diffraction that is added after rendering";
     BLOOM = "Bloom";
     BLOOM_WEIGHT = "Weight";
     BLOOM_RADIUS = "Radius";
     RESET = "Reset";
-    RESET_HINT = "Back to the settings of the scene";
+    RESET_HINT = "Back to the scene's settings";
 }
 
 // The render.
@@ -103,19 +103,18 @@ texts! {
     HALT_SPP = "at samples per pixel";
     HALT_TIME = "after a time";
     HALT_ERROR = "at a relative error";
-    HALT_ERROR_HINT = "Takes the memory of two more films";
+    HALT_ERROR_HINT = "Needs the memory of two more films";
     MACHINE = "This machine";
     THREADS = "Threads";
     LIGHT_TRANSPORT = "Light transport";
-    TECHNIQUE = "Paths";
+    TECHNIQUE = "Technique";
     SAMPLING = "Sampling";
-    APPLY_MODE = "Start again with these";
-    APPLY_MODE_HINT = "Samples of different modes cannot be mixed, so the film begins anew";
+    APPLY_MODE = "Restart with this mode";
+    APPLY_MODE_HINT = "Samples of different modes cannot be mixed, so the film starts over";
     DRAW_REGION = "Draw…";
     WHOLE_PICTURE = "Whole picture";
-    REGION_LATER = "the region cannot change while files are saved: try again in a moment";
-    CANCELLED = "the scene is not waited for any more";
-    NOTHING_TO_SAVE = "there is no render to save";
+    CANCELLED = "Loading was cancelled";
+    NOTHING_TO_SAVE = "there is nothing to save";
 }
 
 // The scene.
@@ -139,60 +138,60 @@ texts! {
     ERROR = "Relative error";
     NO_ESTIMATE = "not estimated";
     UNKNOWN = "unknown";
-    NOT_BEGUN = "Nothing is rendered yet";
+    NOT_BEGUN = "Nothing has been rendered yet";
     MEMORY = "Memory";
-    DEVELOPING = "Developing";
+    DEVELOPING = "Development";
 }
 
 // The scene's file.
 texts! {
-    WRITE_SETTINGS = "Write into the scene";
-    WRITE_SETTINGS_HINT = "Save these settings in the scene's file; its comments and layout stay";
+    WRITE_SETTINGS = "Write to the scene file";
+    WRITE_SETTINGS_HINT = "Save these settings in the scene file, keeping its comments and layout";
     ELEMENTS = "Elements";
     READ_ELEMENTS = "Show the elements";
-    READ_ELEMENTS_HINT = "Read them from the scene's files, to change numbers and colours";
-    SAVE_CHANGES = "Save and start again";
-    SAVE_CHANGES_HINT = "Write the changes to the scene's files, whose comments and layout stay, and load the scene again";
+    READ_ELEMENTS_HINT = "Read them from the scene files, to change texts, numbers and colours";
+    SAVE_CHANGES = "Save and restart";
+    SAVE_CHANGES_HINT = "Write the changes to the scene files, keeping their comments and layout, and load the scene again";
     DISCARD = "Discard";
-    LONG_TEXT = "too long to be edited here";
+    LONG_TEXT = "too long to edit here";
 }
 
 // The queue.
 texts! {
     QUEUE = "Scenes to render one after another";
-    QUEUE_HINT = "Each is rendered until its own halting condition, and saved.";
-    QUEUE_HALT = "Else halt at";
-    QUEUE_HALT_HINT = "Samples per pixel for scenes that have no halting condition";
+    QUEUE_HINT = "Each is rendered until its own halting condition is met, and saved.";
+    QUEUE_HALT = "Otherwise halt at";
+    QUEUE_HALT_HINT = "Samples per pixel for scenes without a halting condition";
     QUEUE_START = "Start the queue";
-    QUEUE_END = "End after this one";
-    QUEUE_END_HINT = "The next scene does not begin by itself";
+    QUEUE_END = "Stop after this scene";
+    QUEUE_END_HINT = "The next scene is not started";
     ADD = "Add…";
     REMOVE = "×";
 }
 
 // Rendering on many machines.
 texts! {
-    NETWORK = "Rendering on many machines";
+    NETWORK = "Network rendering";
     CONNECTION = "Connection";
-    MASTER = "Master at";
-    MASTER_HINT = "The master's machine, and its port if that is not 7777: lust or lust:7000";
-    SEARCHED = "found in the local network";
+    MASTER = "Host";
+    MASTER_HINT = "The master's machine, with its port unless that is 7777: studio or studio:7000";
+    SEARCHED = "found on the local network";
     PORT = "Port";
-    PORT_HINT = "Where slaves find this master; 0 takes any port that is free";
+    PORT_HINT = "Where slaves reach this master; 0 takes any free port";
     KEY_FILE = "Key file";
-    KEY_HINT = "All machines of a render share a key; without one only programs on this machine can take part";
+    KEY_HINT = "All machines of a render share a key; without one, only programs on this machine can take part";
     NO_KEY = "none: this machine only";
     CHOOSE = "Choose…";
-    MAKE_KEY = "Make a key…";
+    MAKE_KEY = "New key…";
     MAKE_KEY_HINT = "Write a new key to a file, to be copied to all machines of the render";
     KEY_NAME = "indigo.key";
     MASTER_NEEDS_SCENE = "Open a scene first";
-    MASTER_AT_WORK = "Slaves are listed at the bottom.";
+    MASTER_AT_WORK = "The slaves are listed at the bottom.";
     SLAVE_AT_WORK = "This machine renders for a master, which has the picture.";
-    NO_PAUSE_OF_MANY = "Slaves cannot be paused: stop the render, and go on with it later";
-    NO_ERROR_OF_MANY = "the relative error is not estimated when slaves render: this halting condition has no effect";
-    LOST_LAST_SAMPLES = "slaves that are gone had the last of the samples: go on with the film to have them all";
-    REGION_OF_MANY = "slaves render what the scene's file says, not a region drawn here: render all of the picture, or put render_region into the scene";
+    NO_PAUSE_OF_MANY = "Slaves cannot be paused: stop the render, and continue it later";
+    NO_ERROR_OF_MANY = "the relative error is not estimated when slaves render, so this halting condition has no effect";
+    LOST_LAST_SAMPLES = "slaves that are gone had the last of the samples: continue with the film to have them all";
+    REGION_OF_MANY = "slaves render what the scene file says, not a region drawn here: render the whole picture, or put render_region into the scene";
     NO_SLAVES = "No slaves have joined yet.";
     SLAVE_MACHINE = "Machine";
     SLAVE_ADDRESS = "Address";
@@ -215,7 +214,7 @@ texts! {
 // Closing and files.
 texts! {
     CLOSE_HEAD = "A scene is being rendered";
-    CLOSE_TEXT = "What is to become of the render when the window closes?";
+    CLOSE_TEXT = "What should happen to the render when the window closes?";
     CLOSE_SAVE = "Save and close";
     CLOSE_DISCARD = "Close without saving";
     CLOSE_NOT = "Keep rendering";

@@ -1,8 +1,10 @@
 //! Saving pictures: developed from a copy of the film, on a thread of their own.
 
 mod metadata;
+mod one;
 mod paths;
 
+pub use one::save_film_as;
 pub use paths::{OutputPaths, PicturePaths};
 
 use crate::atomic::{check_writable, write_atomically};
@@ -112,39 +114,6 @@ impl SaveJob {
         }
         self.save_light(saved.film.develop(), saved.record.as_ref(), Some(&saved.film), &mut all);
         all
-    }
-
-    /// Writes one file to a path, whatever else the scene asks for.
-    ///
-    /// # Errors
-    /// What keeps it from being written; a file that was there before is untouched then.
-    pub fn save_as(&self, saved: &SavedFilm, what: OneFile, path: &Path) -> Result<PathBuf, SaveError> {
-        let settings = &self.development.picture;
-        with_jobs(self.threads, || {
-            if what == OneFile::Film {
-                let record = saved.record.clone().unwrap_or_default();
-                return write_film(path, &saved.film, &record);
-            }
-            let light = saved.film.develop();
-            let metadata = metadata::of(self, light.size, saved.record.as_ref());
-            let image = on_sensor(light, settings);
-            let content = match (settings.foreground_alpha, what) {
-                (true, _) => Content::Coverage,
-                (false, OneFile::Picture) => Content::Developed,
-                (false, _) => Content::Luminances,
-            };
-            let metadata = said(&metadata, content);
-            let bytes = match what {
-                OneFile::Picture => {
-                    png::encode(&develop_image(&image, settings), &metadata, self.development.output.png)
-                }
-                _ if settings.foreground_alpha => {
-                    exr::encode_display_linear(&linear_picture(&image, settings), &metadata)
-                }
-                _ => exr::encode(&linear_picture(&image, settings), &metadata),
-            };
-            encoded(path, bytes)
-        })
     }
 
     /// Writes the files of a film that is developed already, but neither the film nor what its layers tell.

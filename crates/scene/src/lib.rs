@@ -18,6 +18,7 @@ mod settings;
 
 pub use canonical::{LoadedCanonical, load_canonical};
 pub use contents::{Contents, LoadedContents, load_contents};
+pub use indigo_geom::Stop;
 pub use load::{LoadOptions, Loaded, LoadedDevelopment, Override, load, load_development};
 pub use needs::{LoadedNeeds, Need, load_needs};
 pub use scene::{

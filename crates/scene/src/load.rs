@@ -8,7 +8,7 @@ use crate::schema::settings::RENDERER_SETTINGS;
 use crate::settings::{Origin, Settings};
 use indigo_decl::{Element, Node, Resolver, bind};
 use indigo_diag::{Sink, SourceMap, Span, Spanned};
-use indigo_geom::{NoStore, TreeStore};
+use indigo_geom::{NoStore, Stop, TreeStore};
 use indigo_igs::{Limits, read_document, read_scene};
 use std::collections::HashSet;
 
@@ -38,6 +38,8 @@ pub struct LoadOptions<'a> {
     pub limits: Limits,
     /// Whether to check only: no trees are built and no scene comes out.
     pub check_only: bool,
+    /// Ends loading early: no scene comes out then, and what was found tells less than all.
+    pub stop: Option<&'a Stop>,
 }
 
 impl<'a> LoadOptions<'a> {
@@ -50,7 +52,12 @@ impl<'a> LoadOptions<'a> {
             overrides: &[],
             limits: Limits::default(),
             check_only: false,
+            stop: None,
         }
+    }
+
+    pub(crate) fn is_stopped(&self) -> bool {
+        self.stop.is_some_and(Stop::is_set)
     }
 }
 
@@ -99,7 +106,8 @@ pub fn load(path: &str, options: &LoadOptions) -> Loaded {
         sources: &mut sources,
         sink: &mut sink,
     };
-    let mut scene = lower::lower(&bound.root, &bound.settings, path, context).filter(|_| !sink.has_errors());
+    let mut scene = lower::lower(&bound.root, &bound.settings, path, context)
+        .filter(|_| !sink.has_errors() && !options.is_stopped());
     if let Some(scene) = &mut scene {
         let mut paths = HashSet::new();
         bound.root.visit_paths(&mut |_, span| _ = paths.insert(span));

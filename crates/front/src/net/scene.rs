@@ -50,6 +50,7 @@ impl Loader for SceneLoader {
             overrides: &overrides,
             limits: Limits::default(),
             check_only: false,
+            stop: None,
         };
         let loaded = with_jobs(usize::MAX, || load(&files.name, &options));
         loaded.scene.ok_or_else(|| {

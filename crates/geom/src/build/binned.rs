@@ -2,6 +2,7 @@
 //! Bounding Volume Hierarchies", 2007).
 
 use super::binary::{BinaryNode, Lanes, Prim};
+use crate::stop::Stop;
 use indigo_math::pages::with_capacity;
 
 /// Most bins along an axis.
@@ -13,11 +14,12 @@ const PARALLEL: usize = 1 << 14;
 
 /// Builds a binary tree over all of `prims`, which it reorders; leaves hold up to `max_leaf`.
 ///
-/// No leaf is deeper than `max_depth` as long as there are at most 2^`max_depth` primitives.
-pub(crate) fn split_all(prims: &mut [Prim], max_leaf: usize, max_depth: u32) -> Vec<BinaryNode> {
+/// No leaf is deeper than `max_depth` as long as there are at most 2^`max_depth` primitives. Once stopped,
+/// what comes out is of no use.
+pub(crate) fn split_all(prims: &mut [Prim], max_leaf: usize, max_depth: u32, stop: &Stop) -> Vec<BinaryNode> {
     let mut out = with_capacity(2 * prims.len() / max_leaf);
     let task = Task { first: 0, depth_left: max_depth, extent: Extent::of(prims) };
-    Splitter { max_leaf }.split(prims, task, &mut out);
+    Splitter { max_leaf, stop }.split(prims, task, &mut out);
     out
 }
 
@@ -29,14 +31,15 @@ struct Task {
     extent: Extent,
 }
 
-struct Splitter {
+struct Splitter<'a> {
     max_leaf: usize,
+    stop: &'a Stop,
 }
 
-impl Splitter {
+impl Splitter<'_> {
     fn split(&self, prims: &mut [Prim], task: Task, out: &mut Vec<BinaryNode>) {
         let bounds = task.extent.bounds.to_box();
-        if prims.len() <= self.max_leaf {
+        if prims.len() <= self.max_leaf || prims.len() >= PARALLEL && self.stop.is_set() {
             out.push(BinaryNode::leaf(&bounds, task.first, prims.len()));
             return;
         }

@@ -13,6 +13,7 @@ pub(crate) use binned::split_all;
 pub(crate) use collapse::{LeafMaker, Size, collapse};
 
 use crate::soup::Soup;
+use crate::stop::Stop;
 use crate::wide::{Block, Box3, Child, WideTree};
 use indigo_math::pages::with_capacity;
 use rayon::prelude::*;
@@ -32,25 +33,28 @@ pub(crate) enum Builder {
 }
 
 /// A tree over triangles; returns also how many were left out since
-/// they are not finite or have no area.
-pub(crate) fn build_triangles(soup: &Soup, builder: Builder) -> (WideTree, usize) {
+/// they are not finite or have no area. `None` where it was stopped.
+pub(crate) fn build_triangles(soup: &Soup, builder: Builder, stop: &Stop) -> Option<(WideTree, usize)> {
     let mut prims = triangle_prims(soup);
     let skipped = soup.triangles.len() - prims.len();
     if prims.is_empty() {
-        return (WideTree::empty(), skipped);
+        return Some((WideTree::empty(), skipped));
     }
     let max_leaf = match builder {
         Builder::Fast => 4,
         Builder::Quality => 1,
     };
-    let mut binary = split_all(&mut prims, max_leaf, TRIANGLE_DEPTH);
-    if builder == Builder::Quality {
+    let mut binary = split_all(&mut prims, max_leaf, TRIANGLE_DEPTH, stop);
+    if builder == Builder::Quality && !stop.is_set() {
         // A tree that has become too deep is left as it was.
-        binary = reinsert::improve(&binary, TRIANGLE_DEPTH).unwrap_or(binary);
+        binary = reinsert::improve(&binary, TRIANGLE_DEPTH, stop).unwrap_or(binary);
+    }
+    if stop.is_set() {
+        return None;
     }
     let (nodes, blocks, root) = collapse(&binary, &prims, &BlockMaker { soup }, Size::default());
     let bounds = binary[0].bounds();
-    (WideTree { nodes, blocks, root, bounds }, skipped)
+    Some((WideTree { nodes, blocks, root, bounds }, skipped))
 }
 
 fn triangle_prims(soup: &Soup) -> Vec<Prim> {

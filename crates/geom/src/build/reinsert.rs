@@ -7,6 +7,7 @@
 //! found a better place and at what the moves touched: of the others hardly any finds one.
 
 use super::binary::BinaryNode;
+use crate::stop::Stop;
 use crate::wide::Box3;
 use indigo_math::pages::with_capacity;
 use rayon::prelude::*;
@@ -23,12 +24,15 @@ const NONE: u32 = u32::MAX;
 /// In [`Node::link`]: the node is a leaf.
 const LEAF: u32 = 1 << 31;
 
-/// The better tree, or `None` where it would be deeper than `max_depth`.
-pub(crate) fn improve(binary: &[BinaryNode], max_depth: u32) -> Option<Vec<BinaryNode>> {
+/// The better tree, or `None` where it would be deeper than `max_depth`, or the work was stopped.
+pub(crate) fn improve(binary: &[BinaryNode], max_depth: u32, stop: &Stop) -> Option<Vec<BinaryNode>> {
     let mut tree = Tree::new(binary);
     let mut candidates = tree.largest((binary.len() as f64 * CANDIDATES) as usize);
     let mut searches_left = (binary.len() as f64 * SEARCHES) as usize;
     for _ in 0..ROUNDS {
+        if stop.is_set() {
+            return None;
+        }
         searches_left = searches_left.saturating_sub(candidates.len());
         let moves = tree.find_moves(&candidates);
         candidates = tree.make_moves(&moves);

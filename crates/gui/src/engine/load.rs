@@ -8,7 +8,7 @@ use indigo_film::{FilmSize, SavedFilm};
 use indigo_front::load::load_scene;
 use indigo_imaging::PictureSettings;
 use indigo_render::saved::read_film;
-use indigo_scene::{OutputSettings, Scene, SceneStats, TransportSettings};
+use indigo_scene::{OutputSettings, Scene, SceneStats, Stop, TransportSettings};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::Sender;
@@ -70,18 +70,18 @@ impl LoadedFacts {
     }
 }
 
-/// Starts to load; what comes of it is sent with the ticket.
-pub fn spawn(ticket: u64, request: Request, to: Sender<Command>) -> std::io::Result<()> {
+/// Starts to load; what comes of it is sent with the ticket, soon and without a scene where it was stopped.
+pub fn spawn(ticket: u64, request: Request, stop: Stop, to: Sender<Command>) -> std::io::Result<()> {
     let thread = std::thread::Builder::new().name("load".to_owned());
     thread.spawn(move || {
-        let outcome = load(request);
+        let outcome = load(request, &stop);
         // The engine may have ended.
         drop(to.send(Command::Loaded(ticket, Box::new(outcome))));
     })?;
     Ok(())
 }
 
-fn load(request: Request) -> Outcome {
+fn load(request: Request, stop: &Stop) -> Outcome {
     let start = Instant::now();
     let empty = |request, lines| Outcome {
         request,
@@ -96,7 +96,7 @@ fn load(request: Request) -> Outcome {
         Ok(film) => film,
         Err(error) => return empty(request, vec![Line { weight: Weight::Error, text: error.to_string() }]),
     };
-    match load_scene(&request.path, &request.arguments) {
+    match load_scene(&request.path, &request.arguments, Some(stop)) {
         Ok((loaded, read)) => {
             let seconds = start.elapsed().as_secs_f64();
             let line = Line { weight: Weight::Info, text: words::loaded(&request.path, seconds) };

@@ -3,6 +3,8 @@
 
 mod develop;
 mod load;
+#[cfg(test)]
+mod tests;
 mod worker;
 
 pub use develop::{Desk, Histogram, Shown};

@@ -1,6 +1,8 @@
 //! The engine's own thread: it holds the scene and the running session.
 
+mod region;
 mod run;
+mod save;
 mod source;
 
 use super::{Command, Desk, LoadedFacts, Outlet, Phase, Request, Update, load};
@@ -10,17 +12,16 @@ use crate::words;
 use crate::work::Work;
 use indigo_film::SavedFilm;
 use indigo_front::flags::Arguments;
-use indigo_front::messages::{Messages as _, say_saved};
 use indigo_front::net::slave::SlaveRender;
 use indigo_imaging::{Exposure, PictureSettings, ToneMapping};
 use indigo_render::Session;
-use indigo_render::output::{OneFile, OutputPaths, SaveJob};
 use indigo_render::saved::read_film;
-use indigo_scene::Scene;
+use indigo_scene::{FOREGROUND_ALPHA, Scene, Stop};
+use region::RegionWish;
 use run::{BETWEEN_NEWS, Run};
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, Sender};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
 use std::time::{Duration, Instant};
 
 /// How long a command may wait while a scene is rendered.
@@ -44,7 +45,11 @@ pub struct Worker {
     desk: Arc<Desk>,
     /// Number of the last scene that was asked for; what comes of others is not wanted any more.
     ticket: u64,
+    /// Ends loading that one.
+    loading: Stop,
     open: Option<Open>,
+    /// What waits for others to be done with the scene.
+    region: Option<RegionWish>,
     run: Option<Run>,
     /// What is rendered for a master, and when that was last told.
     slave: Option<(SlaveRender, Instant)>,
@@ -64,7 +69,9 @@ impl Worker {
             outlet,
             desk,
             ticket: 0,
+            loading: Stop::default(),
             open: None,
+            region: None,
             run: None,
             slave: None,
             part: Part::of(&Arguments::default()),
@@ -76,15 +83,26 @@ impl Worker {
     /// Works until told to quit.
     pub fn work(mut self) {
         loop {
-            let is_at_work = self.slave.is_some() || self.run.as_ref().is_some_and(|run| !run.is_at_rest());
-            let order = if is_at_work { self.orders.try_recv().ok() } else { self.orders.recv().ok() };
-            match order {
-                Some(Command::Quit { saves }) => return self.quit(saves),
-                Some(order) => self.obey(order),
-                None if is_at_work => self.render_on(),
+            self.try_region();
+            match self.next_order() {
+                Ok(Command::Quit { saves }) => return self.quit(saves),
+                Ok(order) => self.obey(order),
+                Err(RecvTimeoutError::Timeout) => self.render_on(),
                 // Nobody is left to give orders.
-                None => return,
+                Err(RecvTimeoutError::Disconnected) => return,
             }
+        }
+    }
+
+    /// The next order; it is waited for as long as there is nothing else to do.
+    fn next_order(&self) -> Result<Command, RecvTimeoutError> {
+        let is_at_work = self.slave.is_some() || self.run.as_ref().is_some_and(|run| !run.is_at_rest());
+        if is_at_work {
+            self.orders.recv_timeout(Duration::ZERO)
+        } else if self.region.is_some() {
+            self.orders.recv_timeout(PULSE)
+        } else {
+            Ok(self.orders.recv()?)
         }
     }
 
@@ -105,7 +123,7 @@ impl Worker {
             Command::Resume => self.with_run(Run::resume),
             Command::Stop => self.stop(true),
             Command::Adjust(work) => self.adjust(&work),
-            Command::SetRegion(region, work) => self.set_region(region, &work),
+            Command::SetRegion(region, work) => self.set_region(region, work),
             Command::SetPicture(picture) => {
                 if let Some(run) = &mut self.run {
                     run.set_picture(&picture);
@@ -134,16 +152,24 @@ impl Worker {
 
     fn open(&mut self, request: Request) {
         self.stop(true);
-        self.ticket += 1;
+        self.give_up_loading();
+        self.loading = Stop::default();
         self.outlet.send(Update::Phase(Phase::Loading));
-        if let Err(error) = load::spawn(self.ticket, request, self.to_self.clone()) {
+        let spawned = load::spawn(self.ticket, request, self.loading.clone(), self.to_self.clone());
+        if let Err(error) = spawned {
             self.say(Weight::Error, error.to_string());
             self.outlet.send(Update::Phase(self.at_rest()));
         }
     }
 
-    fn cancel(&mut self) {
+    /// What is being loaded is not wanted any more.
+    fn give_up_loading(&mut self) {
+        self.loading.set();
         self.ticket += 1;
+    }
+
+    fn cancel(&mut self) {
+        self.give_up_loading();
         self.say(Weight::Info, words::CANCELLED);
         self.outlet.send(Update::Phase(self.at_rest()));
         self.outlet.send(Update::Done);
@@ -172,6 +198,7 @@ impl Worker {
         self.part = outcome.request.part.clone();
         let (read, request) = (outcome.read, outcome.request);
         let region_of_files = scene.film.region;
+        self.region = None;
         self.open = Some(Open { scene, read, request, region_of_files });
         self.outlet.send(Update::Scene(Box::new(facts)));
         self.outlet.send(Update::Phase(Phase::Ready));
@@ -198,8 +225,8 @@ impl Worker {
                 if let Some(Err(error)) = other {
                     self.say(Weight::Warning, words::only_looked_at(path, &error.to_string()));
                 }
-                self.open = None;
-                let picture = plain_picture();
+                (self.open, self.region) = (None, None);
+                let picture = plain_picture(&film);
                 self.picture = Some(picture.clone());
                 self.desk.set_settings(picture.clone());
                 self.outlet.send(Update::Film(Box::new(picture), path.to_path_buf()));
@@ -210,6 +237,10 @@ impl Worker {
     }
 
     fn start(&mut self, work: &Work) {
+        if let Some(wish) = &mut self.region {
+            wish.work = Some(*work);
+            return;
+        }
         let Some(open) = &self.open else { return };
         if self.run.is_some() {
             return;
@@ -263,6 +294,9 @@ impl Worker {
     /// Ends what is under way, if anything is.
     fn stop(&mut self, saves: bool) {
         self.end_slave();
+        if let Some(wish) = &mut self.region {
+            wish.work = None;
+        }
         let Some(run) = &mut self.run else { return };
         self.outlet.send(Update::Phase(Phase::Ending));
         let reason = run.stop();
@@ -294,75 +328,6 @@ impl Worker {
         }
     }
 
-    fn set_region(&mut self, region: Option<[[u32; 2]; 2]>, work: &Work) {
-        let was_at_work = self.run.take().is_some();
-        self.film = None;
-        let Some(open) = &mut self.open else { return };
-        let Some(scene) = Arc::get_mut(&mut open.scene) else {
-            return self.say(Weight::Warning, words::REGION_LATER);
-        };
-        if let Err(error) = scene.set_region(region) {
-            return self.say(Weight::Error, error.to_string());
-        }
-        let facts = LoadedFacts::of(scene);
-        if let Some(picture) = &mut self.picture {
-            picture.region = facts.picture.region;
-        }
-        self.outlet.send(Update::Scene(Box::new(facts)));
-        self.outlet.send(Update::Phase(Phase::Ready));
-        if was_at_work {
-            self.start(work);
-        }
-    }
-
-    /// Writes all files of the render, on a thread of its own.
-    fn save_all(&mut self) {
-        let Some(run) = &mut self.run else { return };
-        let (job, film) = (run.job().clone(), run.film(&mut self.outlet));
-        self.spawn_save(move |messages| {
-            say_saved(&job.save(&film), messages);
-        });
-    }
-
-    /// Writes one file of what is there now, on a thread of its own.
-    fn save(&mut self, what: OneFile, path: PathBuf) {
-        let growing = self.run.as_mut().map(|run| Arc::new(run.film(&mut self.outlet)));
-        let film = growing.or_else(|| self.film.clone());
-        let (Some(film), Some(job)) = (film, self.job()) else {
-            return self.say(Weight::Error, words::NOTHING_TO_SAVE);
-        };
-        self.spawn_save(move |messages| match job.save_as(&film, what, &path) {
-            Ok(path) => messages.say(&words::saved(&path)),
-            Err(error) => messages.error(&error.to_string()),
-        });
-    }
-
-    fn spawn_save(&self, save: impl FnOnce(&mut Outlet) + Send + 'static) {
-        let mut outlet = self.outlet.clone();
-        let thread = std::thread::Builder::new().name("save".to_owned());
-        if let Err(error) = thread.spawn(move || save(&mut outlet)) {
-            self.say(Weight::Error, error.to_string());
-        }
-    }
-
-    /// How to save, by the controls.
-    fn job(&self) -> Option<SaveJob> {
-        let mut development = match &self.open {
-            Some(open) => open.scene.development(),
-            // A film that is only looked at has no scene to say more.
-            None => return None,
-        };
-        development.picture = self.picture.clone()?;
-        Some(SaveJob {
-            development,
-            paths: OutputPaths::new(""),
-            version: indigo_front::program(),
-            threads: indigo_front::logical_cores(),
-            first_hits: None,
-            denoiser: None,
-        })
-    }
-
     fn quit(&mut self, saves: bool) {
         self.stop(saves);
         self.outlet.send(Update::Gone);
@@ -370,9 +335,13 @@ impl Worker {
 }
 
 /// How a film of no scene is shown at first.
-fn plain_picture() -> PictureSettings {
+fn plain_picture(film: &SavedFilm) -> PictureSettings {
     let tone_mapping = ToneMapping::Reinhard { pre_scale: 4.0, post_scale: 1.2, burn: 6.0 };
     // Reinhard's operator does not look at it; the other two get a middling camera: f/8, 1/125 s.
     let exposure = Exposure { aperture_area: 1.5e-5, lens_sensor_dist: 0.035, duration: 0.008 };
-    PictureSettings::plain(tone_mapping, exposure)
+    let said = film.record.as_ref().and_then(|record| record.setting(FOREGROUND_ALPHA));
+    PictureSettings {
+        foreground_alpha: said == Some("true"),
+        ..PictureSettings::plain(tone_mapping, exposure)
+    }
 }

@@ -26,6 +26,7 @@ use eframe::egui::{Align, Layout, Response, ScrollArea, Ui, vec2};
 pub fn side(ui: &mut Ui, state: &mut State) {
     ui.add_space(6.0);
     ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 2.0;
         for tab in Tab::ALL {
             ui.selectable_value(&mut state.tab, tab, words::tab(tab));
         }
@@ -79,4 +80,27 @@ fn head(ui: &mut Ui, text: &str) {
 fn fact(ui: &mut Ui, name: &str, value: impl Into<String>) {
     let value = value.into();
     row(ui, name, |ui| ui.monospace(value));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::recent::Recent;
+    use egui_kittest::Harness;
+    use indigo_front::flags::Arguments;
+
+    #[test]
+    fn nothing_is_wider_than_the_side() {
+        // Less the margins of a panel, 8 points each.
+        let width = theme::SIDE - 16.0;
+        for tab in Tab::ALL {
+            let state = State { tab, ..State::new(Arguments::default(), Recent::default()) };
+            let show = |ui: &mut Ui, state: &mut State| {
+                ui.set_max_width(width);
+                side(ui, state);
+                assert!(ui.min_rect().width() <= width, "{tab:?}: {}", ui.min_rect().width());
+            };
+            Harness::builder().with_size(vec2(2.0 * width, 600.0)).build_ui_state(show, state).run();
+        }
+    }
 }

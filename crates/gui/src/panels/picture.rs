@@ -113,7 +113,8 @@ fn interact(ui: &Ui, state: &mut State, response: &Response, area: Rect, size: V
 
 fn draw_region(state: &mut State, response: &Response, area: Rect, size: Vec2) {
     if response.drag_started_by(PointerButton::Primary) {
-        state.drag_from = response.interact_pointer_pos();
+        // Not where the pointer was when it had moved so far that this is no click.
+        state.drag_from = response.ctx.input(|input| input.pointer.press_origin());
     }
     if !response.drag_stopped() {
         return;

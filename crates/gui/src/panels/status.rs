@@ -21,7 +21,7 @@ pub fn status(ui: &mut Ui, state: &State) {
                 ui.add(Spinner::new().size(16.0));
             }
         });
-        cell(ui, 120.0, words::phase(&state.phase));
+        cell(ui, 140.0, words::phase(&state.phase));
         let progress = state.progress.as_ref();
         let fraction = progress.and_then(|p| p.fraction);
         match fraction {

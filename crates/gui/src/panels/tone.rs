@@ -144,7 +144,7 @@ fn white(ui: &mut Ui, state: &mut State, controls: &mut Controls) {
     });
     row(ui, "", |ui| {
         let picks = state.tool == Tool::Grey;
-        let button = ui.add(Button::selectable(picks, words::PICK_GREY)).on_hover_text(words::GREY_HINT);
+        let button = ui.add(Button::new(words::PICK_GREY).selected(picks)).on_hover_text(words::GREY_HINT);
         if button.clicked() {
             state.tool = if picks { Tool::Pan } else { Tool::Grey };
         }

@@ -57,8 +57,7 @@ fn open(ui: &mut Ui, state: &mut State) {
 }
 
 fn save(ui: &mut Ui, state: &mut State) {
-    let can_save = state.facts.is_some() && state.picture.is_some();
-    ui.add_enabled_ui(can_save, |ui| {
+    ui.add_enabled_ui(state.picture.is_some(), |ui| {
         ui.menu_button(words::SAVE, |ui| {
             if ui.add_enabled(state.has_growing_film(), Button::new(words::SAVE_NOW)).clicked() {
                 state.command(Command::SaveAll);

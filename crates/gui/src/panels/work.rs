@@ -109,8 +109,11 @@ fn region(ui: &mut Ui, state: &mut State, work: Work) {
     let region = state.facts.as_ref().and_then(|facts| facts.region);
     ui.label(words::region(region));
     ui.horizontal(|ui| {
-        ui.selectable_value(&mut state.tool, Tool::Region, words::DRAW_REGION)
-            .on_hover_text(words::REGION_HINT);
+        let draws = state.tool == Tool::Region;
+        let draw = Button::new(words::DRAW_REGION).selected(draws);
+        if ui.add(draw).on_hover_text(words::REGION_HINT).clicked() {
+            state.tool = if draws { Tool::Pan } else { Tool::Region };
+        }
         if ui.add_enabled(region.is_some(), Button::new(words::WHOLE_PICTURE)).clicked() {
             state.command(Command::SetRegion(None, work));
         }

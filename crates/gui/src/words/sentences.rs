@@ -43,7 +43,7 @@ pub fn tab(tab: Tab) -> &'static str {
 /// How two pictures are shown.
 pub fn layout(layout: Layout) -> &'static str {
     match layout {
-        Layout::Off => "Only the render",
+        Layout::Off => "Render only",
         Layout::Side => "Side by side",
         Layout::Wipe => "Split by a line",
     }
@@ -73,7 +73,7 @@ pub fn chromaticity([x, y]: [f64; 2]) -> String {
 
 /// How paths are built.
 pub fn technique(bidirectional: bool) -> &'static str {
-    if bidirectional { "from both ends" } else { "from the camera" }
+    if bidirectional { "bidirectional path tracing" } else { "path tracing" }
 }
 
 /// Who chooses paths.
@@ -88,13 +88,13 @@ pub fn sampling(sampling: Sampling) -> &'static str {
 /// What the engine is at.
 pub fn phase(phase: &Phase) -> String {
     match phase {
-        Phase::Empty => "Nothing to render".to_owned(),
+        Phase::Empty => "Nothing is open".to_owned(),
         Phase::Loading => "Loading".to_owned(),
         Phase::Ready => "Ready".to_owned(),
         Phase::Rendering => "Rendering".to_owned(),
         Phase::Paused => "Paused".to_owned(),
         Phase::Ending => "Saving".to_owned(),
-        Phase::Slave => "Slave".to_owned(),
+        Phase::Slave => "Rendering for a master".to_owned(),
         Phase::Halted(reason) => match reason {
             HaltReason::Samples => "Done: samples",
             HaltReason::Error => "Done: error",
@@ -110,10 +110,10 @@ pub fn phase(phase: &Phase) -> String {
 pub fn in_empty_picture(phase: &Phase) -> &'static str {
     match phase {
         Phase::Empty => "Drop a scene here, or open one",
-        Phase::Loading => "The scene is being loaded",
-        Phase::Rendering => "The first samples are on their way",
+        Phase::Loading => "The scene is loading",
+        Phase::Rendering => "Waiting for the first samples",
         Phase::Slave => "The master has the picture",
-        _ => "Nothing is rendered yet",
+        _ => "Nothing has been rendered yet",
     }
 }
 
@@ -124,7 +124,7 @@ pub fn picture_of(name: &str) -> String {
 
 /// How large the picture is shown.
 pub fn view(is_fitting: bool) -> String {
-    if is_fitting { "Point at the picture to see its values" } else { "F shows all of the picture" }
+    if is_fitting { "Point at the picture to read its values" } else { "F shows the whole picture" }
         .to_owned()
 }
 
@@ -185,28 +185,28 @@ pub fn size(size: FilmSize) -> String {
 pub fn region(region: Option<[[u32; 2]; 2]>) -> String {
     match region {
         Some([[x1, y1], [x2, y2]]) => format!("Columns {x1} to {}, rows {y1} to {}", x2 - 1, y2 - 1),
-        None => "All of the picture is rendered".to_owned(),
+        None => "The whole picture is rendered".to_owned(),
     }
 }
 
 /// How far a scene of the queue is.
 pub fn turn(turn: Turn) -> &'static str {
     match turn {
-        Turn::Waiting => "waits",
-        Turn::Now => "now",
+        Turn::Waiting => "waiting",
+        Turn::Now => "rendering",
         Turn::Done => "done",
     }
 }
 
 /// Takes a scene out of the queue.
 pub fn remove(name: &str) -> String {
-    format!("Take {name} out of the queue")
+    format!("Remove {name} from the queue")
 }
 
 /// The tab of what was found.
 pub fn findings(n: usize) -> String {
     match n {
-        0 => "Scene: nothing found".to_owned(),
+        0 => "Scene: no findings".to_owned(),
         n => format!("Scene: {}", indigo_front::messages::count(n, "finding")),
     }
 }
@@ -223,17 +223,17 @@ pub fn loaded(path: &str, seconds: f64) -> String {
 
 /// A scene with errors.
 pub fn not_rendered(path: &str) -> String {
-    format!("{path} cannot be rendered; what is wrong stands under Scene")
+    format!("{path} cannot be rendered: see the findings below")
 }
 
 /// A film will be gone on with.
 pub fn goes_on_with(path: &Path) -> String {
-    format!("{} is a film of this scene: Start goes on with it", path.display())
+    format!("{} is a film of this scene: Start continues it", path.display())
 }
 
 /// A film of another scene.
 pub fn only_looked_at(path: &Path, reason: &str) -> String {
-    format!("{} is only looked at: {reason}", path.display())
+    format!("{} can be viewed but not continued: {reason}", path.display())
 }
 
 /// A path that is no text.
@@ -257,7 +257,7 @@ pub fn ending(what: OneFile) -> &'static str {
 
 /// A packed scene cannot be changed.
 pub fn packed(path: &str) -> String {
-    format!("{path} is packed: unpack it to change it, by indigo_console --unpack")
+    format!("{path} is packed: to change it, unpack it by indigo_console --unpack")
 }
 
 /// A scene that cannot be read.
@@ -267,7 +267,7 @@ pub fn unreadable(path: &str) -> String {
 
 /// A file is another than the one that was read.
 pub fn changed_elsewhere(path: &str) -> String {
-    format!("{path} has changed since it was read: load the scene again first")
+    format!("{path} has changed since it was read: reload the scene first")
 }
 
 /// How many elements are to be changed.
@@ -283,7 +283,7 @@ pub fn more_elements(n: usize) -> String {
 /// A part in a render of many machines.
 pub fn role(role: Option<Role>) -> &'static str {
     match role {
-        None => "This machine renders alone",
+        None => "This machine alone",
         Some(Role::Master) => "Master",
         Some(Role::WorkingMaster) => "Working master",
         Some(Role::Slave) => "Slave",
@@ -295,7 +295,7 @@ pub fn role_hint(role: Option<Role>) -> &'static str {
     match role {
         None => "No other machine takes part",
         Some(Role::Master) => "Hands out the scene, and adds up what slaves render",
-        Some(Role::WorkingMaster) => "The same, and renders besides",
+        Some(Role::WorkingMaster) => "The same, and renders as well",
         Some(Role::Slave) => "Renders the scene of a master, which has the picture",
     }
 }
@@ -312,13 +312,16 @@ pub fn start_as(role: Role) -> &'static str {
 /// Something that is no host.
 pub fn no_host(text: &str) -> String {
     format!(
-        "{text} is no machine: a name or address is expected, with a port if need be, such as lust or lust:7000"
+        "{text} is not a machine: expected a name or address, with a port if need be, such as studio or studio:7000"
     )
 }
 
 /// A key was made.
 pub fn key_made(path: &Path) -> String {
-    format!("Saved {}: copy it to all machines of the render by a way that nobody else sees", path.display())
+    format!(
+        "Saved {}: copy it to all machines of the render by a way that nobody else can see",
+        path.display()
+    )
 }
 
 /// The end of a render of many machines.

@@ -3,7 +3,7 @@
 use super::SaveJob;
 use crate::calendar::Moment;
 use indigo_film::{FilmRecord, FilmSize};
-use indigo_imaging::{Metadata, RenderFacts};
+use indigo_imaging::{Metadata, PictureSettings, RenderFacts};
 use indigo_scene::{DIFFRACTION_OF_RAYS, Development};
 use std::time::SystemTime;
 
@@ -13,7 +13,42 @@ pub(super) fn of(job: &SaveJob, size: FilmSize, record: Option<&FilmRecord>) -> 
     let record = record.unwrap_or(&nothing);
     let mut metadata = render_facts(job, size, record).metadata();
     let Development { picture, camera, .. } = &job.development;
-    picture.describe(&mut metadata);
+    describe(picture, record, &mut metadata);
+    metadata.set("aperture_area", picture.exposure.aperture_area);
+    camera.describe(&mut metadata);
+    metadata.camera = Some(*camera);
+    let Moment { date: [year, month, day], time: [hour, minute, second] } = Moment::of(SystemTime::now());
+    metadata.captured = Some(format!("{year:04}:{month:02}:{day:02} {hour:02}:{minute:02}:{second:02}"));
+    metadata
+}
+
+/// What a film knows of itself, and how it is developed.
+pub(super) fn of_film(
+    size: FilmSize,
+    record: Option<&FilmRecord>,
+    picture: &PictureSettings,
+    program: &str,
+) -> Metadata {
+    let mut metadata = Metadata::default();
+    metadata.set("Indigo version used", program);
+    metadata.set("width", size.width());
+    metadata.set("height", size.height());
+    metadata.set("super_sample_factor", size.super_sample());
+    match record {
+        Some(record) => {
+            metadata.set("scene_file_path", &record.scene_path);
+            metadata.set("num_samples", record.samples);
+            metadata.set("render time elapsed", format!("{:.5}", record.elapsed_s));
+            describe(picture, record, &mut metadata);
+        }
+        None => picture.describe(&mut metadata),
+    }
+    metadata
+}
+
+/// How a film was sampled and is developed.
+fn describe(picture: &PictureSettings, record: &FilmRecord, metadata: &mut Metadata) {
+    picture.describe(metadata);
     if let Some(filter) = record.setting("splat_filter") {
         metadata.set("splat_filter", filter);
     }
@@ -22,12 +57,6 @@ pub(super) fn of(job: &SaveJob, size: FilmSize, record: Option<&FilmRecord>) -> 
     }
     let seeds: Vec<String> = record.runs.iter().map(|run| run.seed.to_string()).collect();
     metadata.set("seed", seeds.join(" "));
-    metadata.set("aperture_area", picture.exposure.aperture_area);
-    camera.describe(&mut metadata);
-    metadata.camera = Some(*camera);
-    let Moment { date: [year, month, day], time: [hour, minute, second] } = Moment::of(SystemTime::now());
-    metadata.captured = Some(format!("{year:04}:{month:02}:{day:02} {hour:02}:{minute:02}:{second:02}"));
-    metadata
 }
 
 fn render_facts(job: &SaveJob, size: FilmSize, record: &FilmRecord) -> RenderFacts {

@@ -6,7 +6,7 @@ use super::common::text::{background, camera, flat_camera, grey, scene_file, set
 use super::common::{Region, film, measure_regions, scene};
 use indigo_film::SavedFilm;
 use indigo_formats::image::{Image, Pixels, decode};
-use indigo_render::output::{OneFile, OutputPaths, SaveJob};
+use indigo_render::output::{OneFile, OutputPaths, SaveJob, save_film_as};
 use indigo_render::saved::blank_record;
 use indigo_scene::Scene;
 use indigo_testkit::stats::Moments;
@@ -85,6 +85,24 @@ fn one_file_that_is_asked_for_is_the_same_as_among_all() {
         } else {
             assert!(alone == among_all, "{what:?}");
         }
+    }
+    std::fs::remove_dir_all(directory).expect("the test's own files");
+}
+
+#[test]
+fn a_film_without_its_scene_gives_the_same_picture() {
+    let scene = surroundings("", "");
+    let directory = scratch("film-alone");
+    let job = job(&scene, directory.join("x.png"));
+    let saved = SavedFilm { film: film(&scene, 5, 4), record: Some(blank_record(&scene, "test")) };
+    for (what, ending) in [(OneFile::Picture, "png"), (OneFile::Luminances, "exr")] {
+        let (with, without) = (directory.join("with").join(ending), directory.join("without").join(ending));
+        job.save_as(&saved, what, &with).expect("it is written");
+        save_film_as(&saved, what, &without, &job.development.picture, "test", 1).expect("it is written");
+        let bytes = |path: &PathBuf| std::fs::read(path).expect("the file is there");
+        let pixels = |path: &PathBuf| decode(&format!("x.{ending}"), &bytes(path)).expect("a picture").pixels;
+        assert!(pixels(&with) == pixels(&without), "{what:?}");
+        assert!(bytes(&with) != bytes(&without), "only the scene knows how light was transported");
     }
     std::fs::remove_dir_all(directory).expect("the test's own files");
 }

@@ -33,7 +33,7 @@ use crate::settings::Settings;
 use geometry::Geometry;
 use indigo_decl::{Node, ResolveError, Resolved, Resolver, report_unread};
 use indigo_diag::{Diagnostic, Severity, Sink, SourceMap, Span};
-use indigo_geom::{Accel, BuildOptions, SurfacePoint};
+use indigo_geom::{Accel, BuildError, BuildOptions, Object, SurfacePoint};
 use indigo_math::Vec3d;
 use indigo_scatter::{Material, MediumStack};
 use indigo_spectrum::WavelengthSampler;
@@ -57,9 +57,9 @@ impl Context<'_> {
     }
 
     /// The bytes of a file named in the scene; `None` after reporting why not. An empty path is that of an element
-    /// without one, which was reported.
+    /// without one, which was reported; of a scene that is not wanted any more nothing is.
     fn read(&mut self, path: &str, span: Span) -> Option<Resolved> {
-        if path.is_empty() {
+        if path.is_empty() || self.options.is_stopped() {
             return None;
         }
         let found = self.options.resolver.read(path, self.sources.name(span.source));
@@ -156,8 +156,8 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
     materials.disregard_unused();
 
     let picture = picture::picture(root, camera_node.zip(camera.as_ref()), settings, context);
-    let threshold = usize::try_from(settings.int("bih_tri_threshold").value).unwrap_or(usize::MAX);
-    let caching = settings.bool("cache_trees");
+    // Read before anything can end this, since what nothing reads is reported.
+    let (threshold, caching) = (settings.int("bih_tri_threshold").value, settings.bool("cache_trees"));
     // A light that is there but wrong, or not rendered, has its own message.
     let is_dark = LIGHTS.iter().all(|light| !root.has(light) && !root.is_faulty(light));
     if is_dark && lights.is_empty() && !context.sink.has_errors() {
@@ -170,19 +170,10 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
             .hint("add a <background>, a <meshlight> or a <rectanglelight>"),
         );
     }
-    if context.sink.has_errors() || context.options.check_only {
+    if context.sink.has_errors() || context.options.check_only || context.options.is_stopped() {
         return None;
     }
-    let build_options = BuildOptions { fast_threshold: threshold, ..BuildOptions::default() };
-    let trees: &dyn indigo_geom::TreeStore =
-        if caching { context.options.trees } else { &indigo_geom::NoStore };
-    let accel = match Accel::build(meshes.into_triangles(), geometry.objects(), &build_options, trees) {
-        Ok(accel) => accel,
-        Err(error) => {
-            context.sink.push(Diagnostic::error(codes::GEOMETRY, root.span, error.to_string()));
-            return None;
-        }
-    };
+    let accel = accel(meshes, geometry.objects(), threshold, caching, root.span, context)?;
     let lights = lights.into_table(&geometry, &accel);
     let lamps: Vec<Option<u32>> = geometry.lights().collect();
     let (first_slot, slots, objects) = geometry.into_slots();
@@ -222,6 +213,32 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
     portal_probe::warn_of_openings(root, &scene, origin, context);
     dense_probe::warn_of_dense_media(root, &scene, context);
     Some(scene)
+}
+
+/// All geometry; `None` where it cannot be traced, after reporting why, or is not wanted any more.
+fn accel(
+    meshes: MeshTable,
+    objects: Vec<Object>,
+    threshold: i64,
+    caching: bool,
+    span: Span,
+    context: &mut Context,
+) -> Option<Accel> {
+    let options = BuildOptions {
+        fast_threshold: usize::try_from(threshold).unwrap_or(usize::MAX),
+        stop: context.options.stop.cloned().unwrap_or_default(),
+        ..BuildOptions::default()
+    };
+    let trees: &dyn indigo_geom::TreeStore =
+        if caching { context.options.trees } else { &indigo_geom::NoStore };
+    match Accel::build(meshes.into_triangles(), objects, &options, trees) {
+        Ok(accel) => Some(accel),
+        Err(BuildError::Stopped) => None,
+        Err(error) => {
+            context.sink.push(Diagnostic::error(codes::GEOMETRY, span, error.to_string()));
+            None
+        }
+    }
 }
 
 /// Elements that give light.

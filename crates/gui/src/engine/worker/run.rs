@@ -110,9 +110,14 @@ impl Run {
         self.rests && self.rest_shown
     }
 
+    /// Whether others may render, too.
+    pub fn has_slaves(&self) -> bool {
+        self.source.slaves().is_some()
+    }
+
     /// Lets the threads rest, where they can.
     pub fn pause(&mut self, outlet: &Outlet) {
-        if self.source.slaves().is_some() {
+        if self.has_slaves() {
             return;
         }
         self.source.set_rest(true);

@@ -1,0 +1,152 @@
+//! The engine as the window has it, without a window.
+
+use super::{Command, Engine, Phase, Request, Update, load};
+use crate::part::Part;
+use crate::words;
+use eframe::egui::Context;
+use indigo_front::flags::Arguments;
+use indigo_render::output::OneFile;
+use indigo_scene::Stop;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::channel;
+use std::time::{Duration, Instant};
+
+/// Longer than anything takes here, even on a busy machine.
+const PATIENCE: Duration = Duration::from_mins(2);
+/// Columns and rows of a wavy sheet of a million triangles.
+const SHEET: [usize; 2] = [1000, 500];
+
+const SCENE: &str = r#"<?xml version="1.0" encoding="utf-8"?>
+<scene>
+    <renderer_settings>
+        <width>8</width><height>8</height><cache_trees>false</cache_trees><logging>false</logging>
+        <bidirectional>false</bidirectional><metropolis>false</metropolis>
+        <aperture_diffraction>false</aperture_diffraction>
+    </renderer_settings>
+    <tonemapping><linear><scale>1</scale></linear></tonemapping>
+    <background><spectrum><uniform><value>1</value></uniform></spectrum></background>
+    <camera>
+        <pos>0 -3 0</pos><up>0 0 1</up><forwards>0 1 0</forwards><aperture_radius>0.001</aperture_radius>
+        <focus_distance>3</focus_distance><aspect_ratio>1</aspect_ratio><sensor_width>0.036</sensor_width>
+        <lens_sensor_dist>0.05</lens_sensor_dist><white_balance>D65</white_balance>
+    </camera>
+    <material><name>default</name><diffuse><albedo_spectrum><uniform><value>0.5</value></uniform></albedo_spectrum>
+        </diffuse></material>
+    <mesh><name>sheet</name><normal_smoothing>false</normal_smoothing><external><path>sheet.ply</path></external></mesh>
+    <model><pos>0 0 0</pos><scale>1</scale><mesh_name>sheet</mesh_name></model>
+</scene>
+"#;
+
+/// A scene of a million triangles in a folder of its own.
+struct LargeScene(PathBuf);
+
+impl LargeScene {
+    fn write(name: &str) -> Self {
+        let folder = std::env::temp_dir().join(format!("indigo-engine-{}-{name}", std::process::id()));
+        std::fs::create_dir_all(&folder).expect("a folder for the test");
+        std::fs::write(folder.join("scene.igs"), SCENE).expect("the scene is written");
+        write_sheet(&folder.join("sheet.ply")).expect("the mesh is written");
+        Self(folder)
+    }
+
+    fn request(&self) -> Request {
+        let arguments = Arguments::default();
+        Request {
+            path: self.0.join("scene.igs").display().to_string(),
+            part: Part::of(&arguments),
+            arguments,
+            film: None,
+            starts: false,
+            halts_at: None,
+        }
+    }
+}
+
+impl Drop for LargeScene {
+    fn drop(&mut self) {
+        // Left for the system to clear away, at worst.
+        drop(std::fs::remove_dir_all(&self.0));
+    }
+}
+
+fn write_sheet(path: &Path) -> std::io::Result<()> {
+    let [columns, rows] = SHEET;
+    let (vertices, triangles) = ((columns + 1) * (rows + 1), 2 * columns * rows);
+    let mut file = std::io::BufWriter::new(std::fs::File::create(path)?);
+    write!(
+        file,
+        "ply\nformat binary_little_endian 1.0\nelement vertex {vertices}\nproperty float x\nproperty float y\n\
+         property float z\nelement face {triangles}\nproperty list uchar int vertex_indices\nend_header\n"
+    )?;
+    for row in 0..=rows {
+        for column in 0..=columns {
+            let (x, z) = (column as f32 / columns as f32 - 0.5, row as f32 / rows as f32 - 0.5);
+            for value in [x, 0.1 * (40.0 * x).sin() * (30.0 * z).cos(), z] {
+                file.write_all(&value.to_le_bytes())?;
+            }
+        }
+    }
+    let at = |row: usize, column: usize| (row * (columns + 1) + column) as i32;
+    for row in 0..rows {
+        for column in 0..columns {
+            let [a, b, c, d] =
+                [at(row, column), at(row, column + 1), at(row + 1, column + 1), at(row + 1, column)];
+            for corners in [[a, b, c], [a, c, d]] {
+                file.write_all(&[3])?;
+                for corner in corners {
+                    file.write_all(&corner.to_le_bytes())?;
+                }
+            }
+        }
+    }
+    file.flush()
+}
+
+/// The first of the news that something is found in.
+fn wait_for<T>(engine: &Engine, what: &str, mut find: impl FnMut(Update) -> Option<T>) -> T {
+    let start = Instant::now();
+    while start.elapsed() < PATIENCE {
+        if let Some(found) = engine.news().into_iter().find_map(&mut find) {
+            return found;
+        }
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    panic!("there is no {what}");
+}
+
+#[test]
+fn loading_a_million_triangles_ends_when_it_is_cancelled() {
+    let scene = LargeScene::write("stopped");
+    let (give, take) = channel();
+    let stop = Stop::default();
+    load::spawn(7, scene.request(), stop.clone(), give).expect("a thread");
+    stop.set();
+    let Ok(Command::Loaded(7, outcome)) = take.recv_timeout(PATIENCE) else { panic!("it goes on") };
+    assert!(outcome.scene.is_none(), "it was loaded to the end");
+}
+
+#[test]
+fn the_engine_listens_while_a_million_triangles_are_loaded() {
+    let scene = LargeScene::write("listens");
+    let engine = Engine::new(&Context::default()).expect("threads");
+    let is_phase = |wanted: Phase| {
+        move |update: Update| matches!(update, Update::Phase(phase) if phase == wanted).then_some(())
+    };
+    engine.send(Command::Open(Box::new(scene.request())));
+    engine.send(Command::Save(OneFile::Picture, "x.png".into()));
+    // An answer to what came later, and nothing of the scene before it.
+    wait_for(&engine, "answer", |update| match update {
+        Update::Scene(_) => panic!("it waited for the scene"),
+        Update::Line(line) => (line.text == words::NOTHING_TO_SAVE).then_some(()),
+        _ => None,
+    });
+    engine.send(Command::Cancel);
+    wait_for(&engine, "end of loading", is_phase(Phase::Empty));
+    engine.send(Command::Open(Box::new(scene.request())));
+    let facts = wait_for(&engine, "scene", |update| match update {
+        Update::Scene(facts) => Some(facts),
+        _ => None,
+    });
+    assert_eq!(facts.stats.geometry.triangles, 2 * SHEET[0] * SHEET[1]);
+}
