@@ -19,15 +19,12 @@ const GAUSS: [(f64, f64); 4] = [
 
 /// The directional albedo E of a scattering function by the cosine μ of the view.
 ///
-/// The nodes lie evenly in t = s (1 + k) / (s + k) with s = √μ: dense at grazing angles, where the albedo of rough
-/// surfaces rises like μ ln μ and that of smooth ones changes within cosines of about k². Between nodes the row is cubic
-/// (Catmull & Rom 1974).
+/// Between nodes, see [`Nodes`], the row is cubic (Catmull & Rom 1974).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AlbedoRow {
     /// In steps of 1 / 65535, a tenth of the row's own error: paths carry rows about with their models.
     albedo: [u16; NODES],
-    /// k.
-    scale: Real,
+    nodes: Nodes,
     /// ∫ 2 μ E(μ) dμ: the share of even light from everywhere that is scattered.
     average: Real,
 }
@@ -35,20 +32,52 @@ pub struct AlbedoRow {
 impl AlbedoRow {
     /// A row of a function of μ in [0, 1]; `scale` > 0 is the k of the nodes.
     pub fn new(scale: f64, albedo: impl Fn(f64) -> f64) -> Self {
-        let at = |i: usize| {
-            let t = i as f64 / (NODES - 1) as f64;
-            let root = t * scale / (1.0 + scale - t);
-            albedo(root * root).clamp(0.0, 1.0)
-        };
-        let mut row = Self {
-            albedo: std::array::from_fn(|i| (at(i) * STEPS.to_f64()).round() as u16),
-            scale: Real::from_f64(scale),
-            average: 0.0,
-        };
-        // The interpolant's own mean, so that what `lost` gives back sums up exactly. μ = s² spreads the nodes.
-        let mean = integral([0.0, 1.0], 32, |s| 4.0 * s * s * s * row.at(Real::from_f64(s * s)).to_f64());
-        row.average = Real::from_f64(mean);
-        row
+        Self::on(Nodes::Grazing(Real::from_f64(scale)), albedo).with_average()
+    }
+
+    /// A row that is nowhere less than a function of μ that falls like a square root from a kink in (0, 1) on.
+    pub fn above(kink: f64, albedo: impl Fn(f64) -> f64) -> Self {
+        /// Places in a cell between two nodes.
+        const PLACES: usize = 4;
+        /// By far more than it takes: what a pass leaves is a few hundredths of what it found.
+        const PASSES: usize = 30;
+        let nodes = Nodes::Around(Real::from_f64(kink));
+        let least: [(f64, f64); (NODES - 1) * PLACES + 1] = std::array::from_fn(|i| {
+            let mu = nodes.cos(i as f64 / PLACES as f64);
+            (mu, in_steps(albedo(mu)).ceil())
+        });
+        let mut row = Self::on(nodes, albedo);
+        for _ in 0..PASSES {
+            let mut is_above = true;
+            for (i, (mu, least)) in least.iter().enumerate() {
+                let lacks = least - in_steps(row.at(Real::from_f64(*mu)).to_f64());
+                // A step is what rounding may take.
+                if lacks > 1.0 {
+                    is_above = false;
+                    let cell = (i / PLACES).min(NODES - 2);
+                    for node in &mut row.albedo[cell..cell + 2] {
+                        *node = node.saturating_add(lacks.ceil() as u16);
+                    }
+                }
+            }
+            if is_above {
+                break;
+            }
+        }
+        row.with_average()
+    }
+
+    /// Without its average.
+    fn on(nodes: Nodes, albedo: impl Fn(f64) -> f64) -> Self {
+        let at = |i: usize| in_steps(albedo(nodes.cos(i as f64))).round() as u16;
+        Self { albedo: std::array::from_fn(at), nodes, average: 0.0 }
+    }
+
+    /// With the interpolant's own mean, so that what `complement` gives back sums up exactly.
+    fn with_average(self) -> Self {
+        // μ = s² spreads the nodes.
+        let mean = integral([0.0, 1.0], 32, |s| 4.0 * s * s * s * self.at(Real::from_f64(s * s)).to_f64());
+        Self { average: Real::from_f64(mean), ..self }
     }
 
     /// A row between those of a list whose rows stand at equal steps of a parameter from 0 to 1.
@@ -61,7 +90,10 @@ impl AlbedoRow {
         Self {
             // Rounded: they are not negative.
             albedo: std::array::from_fn(|i| (mix(a.albedo[i].into(), b.albedo[i].into()) + 0.5) as u16),
-            scale: mix(a.scale, b.scale),
+            nodes: match (a.nodes, b.nodes) {
+                (Nodes::Grazing(a), Nodes::Grazing(b)) => Nodes::Grazing(mix(a, b)),
+                (nodes, _) => nodes,
+            },
             average: mix(a.average, b.average),
         }
     }
@@ -69,10 +101,9 @@ impl AlbedoRow {
     /// E(μ).
     #[inline]
     pub fn at(&self, cos: Real) -> Real {
-        let root = cos.max(0.0).sqrt();
-        let t = root * (1.0 + self.scale) / (root + self.scale) * (NODES - 1) as Real;
-        let cell = (t as usize).min(NODES - 2);
-        let x = t - cell as Real;
+        let place = self.nodes.place(cos.max(0.0));
+        let cell = (place as usize).min(NODES - 2);
+        let x = place - cell as Real;
         let v = |i: usize| Real::from(self.albedo[i]);
         let (a, b) = (v(cell), v(cell + 1));
         // At the ends the slope is that of the parabola through the last three nodes.
@@ -99,20 +130,89 @@ impl AlbedoRow {
     }
 }
 
-/// A row for each lane, linear between two.
+/// An albedo in steps.
+fn in_steps(albedo: f64) -> f64 {
+    albedo.clamp(0.0, 1.0) * STEPS.to_f64()
+}
+
+/// Where the nodes of a row lie; places among them are numbers from 0 to `NODES` - 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Nodes {
+    /// Evenly in t = s (1 + k) / (s + k) with s = √μ and this k: dense at grazing angles, where the albedo of rough surfaces
+    /// rises like μ ln μ and that of smooth ones changes within cosines of about k².
+    Grazing(Real),
+    /// Evenly in the square root of the distance from a μ, on either side: beside a kink, like that of the angle of total
+    /// reflection, to which a reflectance goes like such a root.
+    Around(Real),
+}
+
+/// The node at a kink, and the cells beyond.
+const KINK: Real = 10.0;
+const BEYOND: Real = (NODES - 1) as Real - KINK;
+
+impl Nodes {
+    /// The place of a μ of at least 0.
+    #[inline]
+    fn place(self, cos: Real) -> Real {
+        match self {
+            Self::Grazing(k) => {
+                let root = cos.sqrt();
+                root * (1.0 + k) / (root + k) * (NODES - 1) as Real
+            }
+            Self::Around(kink) if cos > kink => KINK + BEYOND * ((cos - kink) / (1.0 - kink)).sqrt(),
+            Self::Around(kink) => KINK * (1.0 - (1.0 - cos / kink).sqrt()),
+        }
+    }
+
+    /// The μ of a place.
+    fn cos(self, place: f64) -> f64 {
+        match self {
+            Self::Grazing(k) => {
+                let (t, k) = (place / (NODES - 1) as f64, k.to_f64());
+                (t * k / (1.0 + k - t)).powi(2)
+            }
+            Self::Around(kink) => {
+                let (from, kink) = (place - KINK.to_f64(), kink.to_f64());
+                if from > 0.0 {
+                    kink + (1.0 - kink) * (from / BEYOND.to_f64()).powi(2)
+                } else {
+                    kink * (1.0 - (from / KINK.to_f64()).powi(2))
+                }
+            }
+        }
+    }
+}
+
+/// A row for each lane, of two.
 #[derive(Clone, Copy, Debug)]
 pub struct LaneRows {
     low: AlbedoRow,
     high: AlbedoRow,
-    /// The share of `high`; `None` where `low` is that of all lanes.
-    mix: Option<SampledSpectrum>,
+    mix: Mix,
+}
+
+/// What lanes have of two rows.
+#[derive(Clone, Copy, Debug)]
+enum Mix {
+    /// The first is that of all lanes.
+    First,
+    /// The share of the second.
+    Linear(SampledSpectrum),
+    /// The greater of both, in all lanes.
+    Greater,
 }
 
 impl LaneRows {
     /// Between two rows, by each lane's share of the second.
     #[inline]
     pub fn between(low: AlbedoRow, high: AlbedoRow, mix: SampledSpectrum) -> Self {
-        Self { low, high, mix: (!mix.is_black()).then_some(mix) }
+        Self { low, high, mix: if mix.is_black() { Mix::First } else { Mix::Linear(mix) } }
+    }
+
+    /// Not below two rows, nor what lies between.
+    #[inline]
+    pub fn above(low: AlbedoRow, high: AlbedoRow) -> Self {
+        Self { low, high, mix: Mix::Greater }
     }
 
     /// E(μ).
@@ -130,20 +230,26 @@ impl LaneRows {
     /// See [`AlbedoRow::complement`].
     #[inline]
     pub fn complement(&self, cos_o: Real, cos_i: Real) -> SampledSpectrum {
-        if self.mix.is_none() {
+        if let Mix::First = self.mix {
             return SampledSpectrum::splat(self.low.complement(cos_o, cos_i));
         }
         let (o, i, average) = (self.at(cos_o), self.at(cos_i), self.average());
         SampledSpectrum::from_fn(|lane| complement(o[lane], i[lane], average[lane]))
     }
 
-    /// What is linear in the rows.
+    /// What is linear in the rows. (The greater of two averages is no more than the average of the greater, so that the
+    /// complement still has at most the albedo that is missing.)
     #[inline]
     fn mixed(&self, of: impl Fn(&AlbedoRow) -> Real) -> SampledSpectrum {
         let low = of(&self.low);
-        let Some(mix) = self.mix else { return SampledSpectrum::splat(low) };
-        let rise = of(&self.high) - low;
-        mix.map(|share| low + rise * share)
+        match self.mix {
+            Mix::First => SampledSpectrum::splat(low),
+            Mix::Linear(mix) => {
+                let rise = of(&self.high) - low;
+                mix.map(|share| low + rise * share)
+            }
+            Mix::Greater => SampledSpectrum::splat(low.max(of(&self.high))),
+        }
     }
 }
 

@@ -170,7 +170,7 @@ fn errors_against_cavities_are_as_stated() {
         .map(cells)
         .filter(|row| row.len() == 6)
         .collect();
-    assert_eq!(rows.len(), 5);
+    assert_eq!(rows.len(), 6);
     let views: Vec<Vector> = VIEWS.iter().flat_map(|&t| AZIMUTHS.map(|phi| direction(t, phi))).collect();
     let mut faults = vec![];
     for row in rows {

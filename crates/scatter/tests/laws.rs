@@ -179,6 +179,24 @@ fn albedo_is_at_most_one_and_weights_average_to_it() {
     }
 }
 
+/// No light is scattered that is less than none, as fits of functions give along the surface.
+#[test]
+fn no_value_is_negative() {
+    for case in cases() {
+        let mut rng = Rng::new(11);
+        for _ in 0..3000 {
+            let flattened = |rng: &mut Rng| {
+                let d = random_direction(rng);
+                Vec3::new(d.x, d.y, d.z * rng.uniform_f32() as Real).normalized()
+            };
+            let (wo, wi) = (flattened(&mut rng), flattened(&mut rng));
+            let e = case.from(wo).eval(wi, Mode::Radiance);
+            let least = e.f_cos.min_lane().min(e.pdf.min_lane()).min(e.pdf_rev.min_lane());
+            assert!(least >= 0.0, "{case}: {e:?} from {wi:?} to {wo:?}");
+        }
+    }
+}
+
 /// The value in a lane depends on that lane's wavelength alone.
 #[test]
 fn lanes_do_not_see_each_other() {

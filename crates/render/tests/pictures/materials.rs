@@ -165,6 +165,10 @@ fn bumps_neither_darken_nor_leak() {
         phong(&format!(
             "<exponent>3000</exponent><specular_reflectivity_spectrum>{WHITE}</specular_reflectivity_spectrum>{bump}"
         )),
+        phong(&format!(
+            "<ior>1.5</ior><exponent>30</exponent><diffuse_albedo_spectrum>{WHITE}</diffuse_albedo_spectrum>{bump}"
+        )),
+        format!("<oren_nayar><sigma>1</sigma><albedo_spectrum>{WHITE}</albedo_spectrum>{bump}</oren_nayar>"),
     ];
     for kind in kinds {
         for degrees in [0.0, 60.0, -80.0] {

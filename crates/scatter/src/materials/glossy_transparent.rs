@@ -32,7 +32,8 @@ pub static BLOCK: Block = Block::new(
             "exponent",
             Kind::Real,
             Presence::Optional,
-            "Exponent of the Phong lobe of the normals of small facets, which spreads reflection and transmission: \
+            "Exponent of the normals of small facets, which spreads reflection and transmission (their distribution \
+             is that of Trowbridge and Reitz with the peak of a Phong lobe of this exponent): \
              from about 1 (broad) to 10000 and more (nearly smooth). Needed unless there is a `roughness`.",
         )
         .range(Range::Above(0.0)),

@@ -14,6 +14,7 @@
 //! | 0.2, 0.8 | 0.048 | 0.058 | 0.098 | 0.126 |
 //! | 0.5, 0.3 | 0.048 | 0.064 | 0.235 | 0.395 |
 //! | 0.5, 0.8 | 0.039 | 0.077 | 0.189 | 0.265 |
+//! | 1, 0.2 | 0.169 | 0.179 | 0.299 | 0.668 |
 //! | 1, 0.8 | 0.095 | 0.182 | 0.259 | 0.325 |
 //! | 1, 1 | 0.085 | 0.220 | 0.312 | 0.240 |
 //!
@@ -161,7 +162,8 @@ impl Facets {
         // tan((α + β) / 2) = (sin α + sin β) / (cos α + cos β).
         let tan_mean = (sin_alpha + sin_beta) / (cos_alpha + cos_beta);
         let rough = cos_phi * c2 * sin_beta / cos_beta + (1.0 - cos_phi.abs()) * c3 * tan_mean;
-        self.scale * INV_PI * (self.even + self.rough * rough)
+        // The fit falls below 0 where both directions lie along the surface and away from one another, from σ = 0.66 on.
+        self.scale * INV_PI * (self.even + self.rough * rough).max(0.0)
     }
 
     /// The share of light that one bounce scatters, seen under cosine `mu`.

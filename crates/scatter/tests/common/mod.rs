@@ -6,6 +6,7 @@ use indigo_diag::{Sink, SourceMap};
 use indigo_igs::{Limits, read_document};
 use indigo_math::{Real, Vec2, Vec3};
 use indigo_scatter::materials::{KINDS, MATERIAL};
+use indigo_scatter::media::{Cauchy, Medium};
 use indigo_scatter::{
     Interface, Leaf, Material, MaterialContext, MaterialId, MaterialResources, MediumId, Scatter,
     ShadingPoint,
@@ -26,6 +27,7 @@ const EXAMPLES: &[&str] = &[
     "<oren_nayar><sigma>0.12</sigma><albedo_spectrum><uniform><value>1</value></uniform></albedo_spectrum></oren_nayar>",
     "<oren_nayar><sigma>1</sigma><albedo_spectrum><uniform><value>1</value></uniform></albedo_spectrum></oren_nayar>",
     "<oren_nayar><sigma>0.6</sigma><albedo_spectrum><rgb><rgb>0.9 0.5 0.1</rgb></rgb></albedo_spectrum></oren_nayar>",
+    "<oren_nayar><sigma>1</sigma><albedo_spectrum><uniform><value>0.1</value></uniform></albedo_spectrum></oren_nayar>",
     "<phong><ior>1.5</ior><exponent>1</exponent><diffuse_albedo_spectrum><uniform><value>1</value></uniform></diffuse_albedo_spectrum></phong>",
     "<phong><ior>2.5</ior><exponent>100</exponent><diffuse_albedo_spectrum><rgb><rgb>0.9 0.5 0.1</rgb></rgb></diffuse_albedo_spectrum></phong>",
     "<phong><ior>1.3</ior><exponent>30</exponent></phong>",
@@ -42,10 +44,27 @@ const EXAMPLES: &[&str] = &[
     "<specular><internal_medium_name>glass</internal_medium_name><transparent>false</transparent></specular>",
 ];
 
-/// Air above, and below a glass that is more dispersive than any real one: Cauchy's A = 1.45, B = 0.02 µm².
-fn interface(lambda: &SampledWavelengths) -> Interface {
+/// Coats inside of media that are denser than they are, one of them dispersive (SF10), or whose index for some wavelengths
+/// only is above theirs.
+const IMMERSED: &[(&str, Cauchy)] = &[
+    (
+        "<phong><ior>1.5</ior><exponent>30</exponent><diffuse_albedo_spectrum><uniform><value>1</value></uniform></diffuse_albedo_spectrum></phong>",
+        Cauchy { a: 1.7, b: 0.0 },
+    ),
+    (
+        "<phong><ior>1.5</ior><exponent>1000</exponent><diffuse_albedo_spectrum><uniform><value>1</value></uniform></diffuse_albedo_spectrum></phong>",
+        Cauchy { a: 1.728, b: 0.01342 },
+    ),
+    (
+        "<phong><ior>1.5</ior><exponent>3</exponent><diffuse_albedo_spectrum><uniform><value>1</value></uniform></diffuse_albedo_spectrum></phong>",
+        Cauchy { a: 1.45, b: 0.02 },
+    ),
+];
+
+/// What lies outside above, and below a glass that is more dispersive than any real one: Cauchy's A = 1.45, B = 0.02 µm².
+fn interface(outside: Cauchy, lambda: &SampledWavelengths) -> Interface {
     let glass = SampledSpectrum(lambda.lambda.map(|nm| 1.45 + 0.02 / (nm * nm * 1e-6)));
-    Interface { above: SampledSpectrum::ONE, below: glass }
+    Interface { above: outside.eval(lambda), below: glass }
 }
 
 /// Places: the angle between the view and the geometric normal, and that between the shading normal and the
@@ -62,6 +81,8 @@ pub struct Example {
     pub text: &'static str,
     /// Whether it is seen from inside the medium, where it has one.
     is_inside: bool,
+    /// What lies outside.
+    outside: Cauchy,
     material: Material,
 }
 
@@ -77,7 +98,7 @@ impl Example {
     }
 
     fn leaf_seen(&self, lambda: &SampledWavelengths, is_inside: bool) -> Leaf {
-        let Interface { above, below } = interface(lambda);
+        let Interface { above, below } = interface(self.outside, lambda);
         let interface =
             if is_inside { Interface { above: below, below: above } } else { Interface { above, below } };
         let context = MaterialContext { textures: &[], materials: &[], lambda, interface, choice: 0.5 };
@@ -201,10 +222,17 @@ pub fn delta_examples() -> Vec<Example> {
     all_examples().into_iter().filter(|e| !e.leaf(&lambda).is_connectable()).collect()
 }
 
-/// All models that are rendered: of each kind the declaration's example, and then [`EXAMPLES`].
+/// All models that are rendered: of each kind the declaration's example, and then [`EXAMPLES`] and [`IMMERSED`].
 pub fn all_examples() -> Vec<Example> {
     let declared = KINDS.iter().map(|block| block.example);
-    declared.chain(EXAMPLES.iter().copied()).flat_map(example).collect()
+    let in_air = declared.chain(EXAMPLES.iter().copied()).flat_map(example);
+    let immersed = IMMERSED.iter().flat_map(|&(text, outside)| {
+        example(text).into_iter().map(move |mut example| {
+            example.material.immerse(&[Medium::AIR, Medium::clear(outside)]);
+            Example { outside, ..example }
+        })
+    });
+    in_air.chain(immersed).collect()
 }
 
 /// The model of an element, from both sides where they differ; nothing where it has no leaf.
@@ -222,7 +250,9 @@ pub fn example(text: &'static str) -> Vec<Example> {
         _ if material.internal_medium().is_some() => &[false, true],
         _ => &[false],
     };
-    sides.iter().map(|&is_inside| Example { kind, text, is_inside, material: material.clone() }).collect()
+    let outside = Cauchy::constant(1.0);
+    let side = |&is_inside: &bool| Example { kind, text, is_inside, outside, material: material.clone() };
+    sides.iter().map(side).collect()
 }
 
 struct Text(String);
