@@ -65,6 +65,21 @@ pub static CAMERA: Block = Block::new(
         .unit("m")
         .range(Range::Above(0.0)),
         Field::new(
+            "lens_shift_right_distance",
+            Kind::Real,
+            Presence::Default("0"),
+            "How far the lens is shifted to the right of the middle of the sensor: the picture shows what lies further to \
+             the right, and parallel lines stay parallel. The lens stays at `pos`: it is the sensor that moves.",
+        )
+        .unit("m"),
+        Field::new(
+            "lens_shift_up_distance",
+            Kind::Real,
+            Presence::Default("0"),
+            "How far the lens is shifted up, likewise: what architecture is photographed with, as it keeps walls upright.",
+        )
+        .unit("m"),
+        Field::new(
             "white_balance",
             Kind::Text,
             Presence::Default("D65"),
@@ -72,6 +87,13 @@ pub static CAMERA: Block = Block::new(
              chromaticity x y. Names stand for the whites of their spectra in steps of 1 nm, to 1e-4; for F11 CIE 015 \
              prints one of steps of 5 nm, which differs by 2e-4. The white of F10 is the one published, which is 1e-3 \
              from its spectrum's.",
+        ),
+        Field::new(
+            "white_point",
+            Kind::Block(&WHITE_POINT),
+            Presence::Optional,
+            "The light that looks white, by numbers, as later versions write it. Where `white_balance` is given too, \
+             that counts, with a warning.",
         ),
         Field::new(
             "exposure_duration",
@@ -122,10 +144,7 @@ pub static CAMERA: Block = Block::new(
 .with_later(&[
     Later::new("name", "3.0"),
     Later::new("uid", "3.0"),
-    Later::new("lens_shift_up_distance", "2.0").instead("is ignored: the lens stands before the middle of the sensor").unless("0"),
-    Later::new("lens_shift_right_distance", "2.0").instead("is ignored: the lens stands before the middle of the sensor").unless("0"),
     Later::new("camera_type", "2.2").instead("is ignored: the camera is a thin lens").unless("thin-lens-perspective"),
-    Later::new("white_point", "3.0").instead("is ignored: white_balance counts"),
 ])
 .with_ignored(&["polarising_filter", "polarising_angle", "glare_weight", "glare_radius", "glare_num_blades"])
 .with_example(
@@ -197,6 +216,32 @@ pub static ROTATION_QUATERNION: Block = Block::new(
     ],
 )
 .with_example("<rotation_quaternion><axis>0 0 1</axis><angle>1.5708</angle></rotation_quaternion>");
+
+/// The declaration of `white_point`.
+pub static WHITE_POINT: Block = Block::new(
+    "white_point",
+    "A white.",
+    &[Field::new(
+        "chromaticity_coordinates",
+        Kind::Block(&CHROMATICITY),
+        Presence::Required,
+        "Its CIE 1931 chromaticity.",
+    )],
+)
+.with_example(
+    "<white_point><chromaticity_coordinates><x>0.3457</x><y>0.3585</y></chromaticity_coordinates></white_point>",
+);
+
+/// The declaration of `chromaticity_coordinates`.
+pub static CHROMATICITY: Block = Block::new(
+    "chromaticity_coordinates",
+    "A chromaticity of the CIE 1931 standard observer; x + y is at most 1.",
+    &[
+        Field::new("x", Kind::Real, Presence::Required, "The share of X.").range(Range::Above(0.0)),
+        Field::new("y", Kind::Real, Presence::Required, "The share of Y.").range(Range::Above(0.0)),
+    ],
+)
+.with_example("<chromaticity_coordinates><x>0.3457</x><y>0.3585</y></chromaticity_coordinates>");
 
 /// The declaration of `bloom`.
 pub static BLOOM: Block = Block::new(

@@ -3,7 +3,9 @@
 //! The lens centre is the camera's position; the sensor lies `lens_sensor_dist` behind it. A point
 //! of the sensor is imaged to the plane of focus through the lens centre, and every ray from it
 //! through the lens meets that image point. The horizontal angle of view is
-//! 2 atan(sensor_width / (2 lens_sensor_dist)), whatever the focus.
+//! 2 atan(sensor_width / (2 lens_sensor_dist)), whatever the focus. A lens that is shifted stands before another point of
+//! the sensor than its middle, and looks the same way: the picture is another part of the same image, so that
+//! densities and blur are those of the lens that is not shifted.
 
 use indigo_math::{Real, Vec2, Vec3, Vec3d};
 
@@ -26,8 +28,36 @@ pub struct ThinLensParameters {
     pub sensor_height: f64,
     /// Distance from the sensor to the lens.
     pub lens_sensor_dist: f64,
+    /// How far the lens is shifted from before the middle of the sensor: to the right, and up.
+    pub lens_shift: [f64; 2],
     /// Whether the cos⁴ law of natural vignetting holds.
     pub vignetting: bool,
+}
+
+impl ThinLensParameters {
+    /// Unit vectors to the right, up and forwards; `None` where `forwards` and `up` do not span a plane.
+    fn axes(&self) -> Option<[Vec3d; 3]> {
+        let forwards = self.forwards.try_normalized()?;
+        let right = forwards.cross(self.up.try_normalized()?);
+        // Below this sine the direction of `up` is lost in rounding.
+        if right.length() < 1e-9 {
+            return None;
+        }
+        let right = right.normalized();
+        Some([right, right.cross(forwards), forwards])
+    }
+
+    /// Slopes, to the right and up, at which the middle of the film looks through the middle of the lens.
+    fn middle(&self) -> [f64; 2] {
+        self.lens_shift.map(|shift| shift / self.lens_sensor_dist)
+    }
+
+    /// The unit direction in which the middle of the film looks through the middle of the lens: `forwards`, unless the
+    /// lens is shifted. `None` where `forwards` and `up` do not span a plane.
+    pub fn middle_direction(&self) -> Option<Vec3d> {
+        let ([right, up, forwards], [x, y]) = (self.axes()?, self.middle());
+        (forwards + right * x + up * y).try_normalized()
+    }
 }
 
 /// A camera that is a thin lens.
@@ -42,6 +72,8 @@ pub struct ThinLens {
     inverse_focus: Real,
     /// Sensor size over lens-sensor distance.
     tangents: Vec2,
+    /// Slopes, to the right and up, at which the middle of the film looks through the middle of the lens.
+    middle: Vec2,
     /// Distance from the sensor to the lens over the diameter of the aperture.
     f_number: Real,
     sensor_size: Vec2,
@@ -76,18 +108,11 @@ impl ThinLens {
 
     /// A lens from its parameters; `None` where `forwards` and `up` do not span a plane.
     pub fn new(p: &ThinLensParameters) -> Option<Self> {
-        let forwards = p.forwards.try_normalized()?;
-        let up = p.up.try_normalized()?;
-        let right = forwards.cross(up);
-        // Below this sine the direction of `up` is lost in rounding.
-        if right.length() < 1e-9 {
-            return None;
-        }
-        let right = right.normalized();
+        let ([right, up, forwards], [x, y]) = (p.axes()?, p.middle());
         Some(Self {
             position: p.position.cast(),
             right: right.cast(),
-            up: right.cross(forwards).cast(),
+            up: up.cast(),
             forwards: forwards.cast(),
             aperture_radius: p.aperture_radius as Real,
             inverse_focus: (1.0 / p.focus_distance) as Real,
@@ -95,6 +120,7 @@ impl ThinLens {
                 (p.sensor_width / p.lens_sensor_dist) as Real,
                 (p.sensor_height / p.lens_sensor_dist) as Real,
             ),
+            middle: Vec2::new(x as Real, y as Real),
             f_number: (0.5 * p.lens_sensor_dist / p.aperture_radius) as Real,
             sensor_size: Vec2::new(p.sensor_width as Real, p.sensor_height as Real),
             vignetting: p.vignetting,
@@ -108,8 +134,8 @@ impl ThinLens {
     /// reconstruction filters and diffraction ask for them.
     #[inline]
     pub fn ray(&self, film: Vec2, lens: Vec2) -> LensRay {
-        let x = (film.x - 0.5) * self.tangents.x;
-        let y = (0.5 - film.y) * self.tangents.y;
+        let x = (film.x - 0.5) * self.tangents.x + self.middle.x;
+        let y = (0.5 - film.y) * self.tangents.y + self.middle.y;
         let chief = self.forwards + self.right * x + self.up * y;
         let on_lens = lens * self.aperture_radius;
         let offset = self.right * on_lens.x + self.up * on_lens.y;
@@ -129,7 +155,9 @@ impl ThinLens {
         let offset = origin - self.position;
         let on_axis = |axis: Vec3| direction.dot(axis) / along + offset.dot(axis) * self.inverse_focus;
         let (x, y) = (on_axis(self.right), on_axis(self.up));
-        let position = Vec2::new(0.5 + x / self.tangents.x, 0.5 - y / self.tangents.y);
+        let from_middle = Vec2::new(x - self.middle.x, y - self.middle.y);
+        let position =
+            Vec2::new(0.5 + from_middle.x / self.tangents.x, 0.5 - from_middle.y / self.tangents.y);
         Some(FilmPosition { position, importance: self.importance(x, y) })
     }
 
@@ -197,9 +225,13 @@ mod tests {
             sensor_width: 0.036,
             sensor_height: 0.024,
             lens_sensor_dist: 0.02,
+            lens_shift: [0.0; 2],
             vignetting: true,
         }
     }
+
+    /// Far beyond what a lens can do, so that what forgets it is seen.
+    const SHIFT: [f64; 2] = [0.01, -0.03];
 
     fn close(a: Vec3, b: Vec3) -> bool {
         (a - b).length() < 1e-5
@@ -214,6 +246,31 @@ mod tests {
         assert!(close(right_edge, Vec3::new(0.9, 1.0, 0.0).normalized()));
         let top = lens.ray(Vec2::new(0.5, 0.0), centre).direction;
         assert!(close(top, Vec3::new(0.0, 1.0, 0.6).normalized()));
+    }
+
+    /// Raised by 1 cm, the lens stands 1 cm above the middle of the sensor and 2 cm before it.
+    #[test]
+    fn a_shifted_lens_sees_the_way_that_it_is_shifted() {
+        let [right, up] = SHIFT;
+        let p = ThinLensParameters { lens_shift: SHIFT, ..parameters() };
+        let lens = ThinLens::new(&p).unwrap();
+        let centre = Vec2::new(0.0, 0.0);
+        let (x, y) = ((right / 0.02) as Real, (up / 0.02) as Real);
+        for (film, slopes) in [
+            (Vec2::new(0.5, 0.5), (x, y)),
+            (Vec2::new(1.0, 0.0), (0.9 + x, 0.6 + y)),
+            // Behind the middle of the lens there is no shift.
+            (Vec2::new(0.5 - x / 1.8, 0.5 + y / 1.2), (0.0, 0.0)),
+        ] {
+            let ray = lens.ray(film, centre);
+            let chief = Vec3::new(slopes.0, 1.0, slopes.1);
+            assert!(close(ray.direction, chief.normalized()), "{ray:?}");
+            // Vignetting goes by the angle to the lens's axis.
+            assert!((ray.importance - chief.length2().powi(-2)).abs() < 1e-6, "{ray:?}");
+        }
+        let middle = p.middle_direction().unwrap();
+        assert!(close(middle.cast(), Vec3::new(x, 1.0, y).normalized()));
+        assert!(close(parameters().middle_direction().unwrap().cast(), Vec3::new(0.0, 1.0, 0.0)));
     }
 
     #[test]
@@ -251,7 +308,12 @@ mod tests {
     #[test]
     fn a_rays_film_position_is_the_one_that_it_came_from() {
         for focus_distance in [4.0, 0.3, f64::INFINITY] {
-            let p = ThinLensParameters { focus_distance, aperture_radius: 0.05, ..parameters() };
+            let p = ThinLensParameters {
+                focus_distance,
+                aperture_radius: 0.05,
+                lens_shift: SHIFT,
+                ..parameters()
+            };
             let lens = ThinLens::new(&p).unwrap();
             for i in 0..100 {
                 let u = |k: u32| ((i * k) % 101) as Real / 101.0;
@@ -268,7 +330,12 @@ mod tests {
     /// The solid angle of a small patch of film, by the density and by its corners.
     #[test]
     fn the_density_of_directions_is_one_over_the_solid_angle_of_the_film() {
-        let p = ThinLensParameters { aperture_radius: 0.3, focus_distance: 0.7, ..parameters() };
+        let p = ThinLensParameters {
+            aperture_radius: 0.3,
+            focus_distance: 0.7,
+            lens_shift: SHIFT,
+            ..parameters()
+        };
         let lens = ThinLens::new(&p).unwrap();
         for (x, y) in [(0.5, 0.5), (0.05, 0.9), (0.99, 0.3)] {
             let at = |dx: f64, dy: f64| {
@@ -288,7 +355,12 @@ mod tests {
     /// The image of a quarter of the lens, by where the light of its corners falls.
     #[test]
     fn blur_is_the_area_of_the_image_of_the_lens() {
-        let p = ThinLensParameters { aperture_radius: 0.1, focus_distance: 2.0, ..parameters() };
+        let p = ThinLensParameters {
+            aperture_radius: 0.1,
+            focus_distance: 2.0,
+            lens_shift: SHIFT,
+            ..parameters()
+        };
         let lens = ThinLens::new(&p).unwrap();
         for to in [Vec3d::new(0.7, 5.0, -0.4), Vec3d::new(-0.2, 0.8, 0.1), Vec3d::new(0.3, 2.0, 0.0)] {
             let falls = |x: Real, z: Real| {

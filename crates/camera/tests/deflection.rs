@@ -23,6 +23,7 @@ fn camera(aperture: &Aperture) -> (Camera, FarField) {
         sensor_width: WIDTH,
         sensor_height: WIDTH,
         lens_sensor_dist: DISTANCE,
+        lens_shift: [0.0; 2],
         vignetting: true,
     });
     let field = Pupil::new(aperture.clone(), None).far_field().expect("an opening");

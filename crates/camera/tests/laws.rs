@@ -19,6 +19,7 @@ fn lens(focus_distance: f64, aperture_radius: f64) -> ThinLens {
         sensor_width: 0.036,
         sensor_height: 0.024,
         lens_sensor_dist: 0.03,
+        lens_shift: [0.0; 2],
         vignetting: true,
     })
     .expect("a camera that looks somewhere")

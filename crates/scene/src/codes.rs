@@ -43,6 +43,8 @@ indigo_decl::codes! {
     NO_EXPONENT = "W0322", "(an `exponent_map` of a picture with black texels)";
     /// A medium whose mean free path is near the rounding of its surface.
     TOO_DENSE = "W0323", "(a box of a metre whose medium scatters 100,000 times a metre)";
+    /// A camera whose white is given twice.
+    WHITE_TWICE = "W0324", "(a `camera` with `white_balance` and `white_point`)";
     /// A name that nothing defines.
     UNKNOWN_NAME = "E0301", "<sphere><center>0 0 0</center><radius>1</radius><material_name>whiet</material_name></sphere>";
     /// A file that cannot be had.

@@ -86,7 +86,7 @@ fn in_a_scene(block: &Block) -> Option<String> {
         "external" => format!("<mesh><name>e</name>{example}</mesh>"),
         "latlong" => format!("<env_map>{example}</env_map>"),
         "texture" => format!("<material><name>t</name><diffuse>{example}</diffuse></material>"),
-        "aperture_shape" | "bloom" | "keyframe" => with_child(&CAMERA, example),
+        "aperture_shape" | "bloom" | "keyframe" | "white_point" => with_child(&CAMERA, example),
         "circular" | "image" | "generated" => {
             with_child(&CAMERA, &format!("<aperture_shape>{example}</aperture_shape>"))
         }

@@ -122,6 +122,34 @@ fn coverage_is_of_things_and_not_of_light() {
     }
 }
 
+/// A lens that is shifted by whole pixels of the sensor moves the picture by as many, to the left and down where the lens
+/// goes to the right and up, whichever end light is traced from.
+#[test]
+fn a_shifted_lens_moves_the_picture() {
+    const RIGHT: usize = 5;
+    const UP: usize = 2;
+    let shift = |name: &str, pixels: usize| {
+        let metres = 0.1 * pixels as f64 / SIDE as f64;
+        format!("<lens_shift_{name}_distance>{metres}</lens_shift_{name}_distance>")
+    };
+    let sharp = "<aperture_diffraction>false</aperture_diffraction>";
+    let text = lamp_text(sharp, &(shift("right", RIGHT) + &shift("up", UP)));
+    let [lo, hi] = LAMP;
+    let (columns, rows) = ([lo - RIGHT, hi - RIGHT], [lo + UP, hi + UP]);
+    let lit = ((hi - lo) * (hi - lo)) as f64 / (SIDE * SIDE) as f64;
+    for bidirectional in [false, true] {
+        let mut scene = scene(&text);
+        scene.transport.bidirectional = bidirectional;
+        let images: Vec<_> = (0..16).map(|seed| sensor(&scene, 40 + seed, 128)).collect();
+        let inside = Moments::of(images.iter().map(|i| mean(i, 1, [columns, rows])));
+        let all = Moments::of(images.iter().map(|i| mean(i, 1, [[0, SIDE]; 2])));
+        // 1e-3 of a pixel's width, the blur of the lens and the rounding of positions, may lie across the lamp's edge.
+        let what = format!("bidirectional {bidirectional}");
+        assert_near(&format!("{what}: the lamp"), &inside, 1e5 * NITS_PER_UNIFORM, 5e-3);
+        assert_near(&format!("{what}: the picture"), &all, lit * 1e5 * NITS_PER_UNIFORM, 5e-3);
+    }
+}
+
 /// A lamp of a centimetre out of focus, before a lens of 20 cm: each point of the disc sees it through
 /// A / (4 m / focus − 1)² of the lens, of π r². Light paths make an even disc of it, of which camera rays, one in 10,000 of
 /// which meets the lamp, show specks: with light paths the deviation of a pixel is 6 % here, without 100 % and more.
@@ -292,6 +320,16 @@ fn autofocus_finds_what_is_in_the_middle() {
         assert!((auto.direction - fixed.direction).length() < 1e-6);
         assert_eq!(ray(&format!("<autofocus/>{}", given(77.0)), at), auto);
     }
+    // A shifted lens has something else in the middle: here a slope of 1 : 5 leads past the step. The plane of focus lies
+    // 4 m ahead, though the way there is longer.
+    let step = Mesh::square(0.4, 2.5).text("step", "grey") + &model("step") + "</scene>";
+    let shift = "<lens_shift_up_distance>0.01</lens_shift_up_distance>";
+    let [auto, fixed] = [String::from("<autofocus/>"), given(4.0)].map(|focus| {
+        let text = text(&(focus + shift), 1.0).replace("</scene>", &step);
+        let scene = scene(&text);
+        scene.camera.ray(Vec2::new(0.2, 0.7), Vec2::new(0.9, 0.4))
+    });
+    assert!((auto.direction - fixed.direction).length() < 1e-6);
     // A pane that is not there is not what the camera sees.
     let pane = null("pane") + &Mesh::square(1.0, 4.2).text("pane", "pane") + &model("pane") + "</scene>";
     let behind = scene(&text("<autofocus/>", 1.0).replace("</scene>", &pane));

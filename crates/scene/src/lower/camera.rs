@@ -51,6 +51,7 @@ pub(super) fn parameters(
         sensor_width,
         sensor_height: sensor_width / aspect,
         lens_sensor_dist: node.real("lens_sensor_dist"),
+        lens_shift: [node.real("lens_shift_right_distance"), node.real("lens_shift_up_distance")],
         vignetting,
     };
     let is_size_known = !settings.is_faulty("width") && !settings.is_faulty("height");
@@ -181,8 +182,8 @@ fn pupil(node: &Node, aperture: &Aperture, diffraction: Diffraction, context: &m
     if diffraction == Diffraction::Off { open } else { pupil }
 }
 
-/// Sets the focus by what the camera sees in its direction, if it is to find its focus itself: the first surface that
-/// is not wholly unseen.
+/// Sets the focus by what the middle of the picture shows, if the camera is to find its focus itself: the first surface
+/// that is not wholly unseen.
 pub(super) fn focus(
     mut camera: Unfocused,
     accel: &Accel,
@@ -190,12 +191,15 @@ pub(super) fn focus(
 ) -> Unfocused {
     if camera.autofocus {
         let forwards = camera.lens.forwards.normalized();
-        let mut ray = Ray::new(Vec3::ZERO, forwards.cast());
+        // A lens without directions was reported.
+        let middle = camera.lens.middle_direction().unwrap_or(forwards);
+        let mut ray = Ray::new(Vec3::ZERO, middle.cast());
         camera.lens.focus_distance = loop {
             let Some(hit) = accel.intersect(&ray) else { break f64::INFINITY };
             let at = accel.surface(&ray, &hit);
             if !is_unseen(&at) {
-                break hit.t.to_f64();
+                // The plane of focus lies across `forwards`.
+                break hit.t.to_f64() * middle.dot(forwards);
             }
             ray = ray.beyond(hit.t, at.p_error.length());
         };

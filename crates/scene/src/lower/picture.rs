@@ -9,7 +9,7 @@ use crate::scene::{
 };
 use crate::settings::Settings;
 use indigo_decl::Node;
-use indigo_diag::{Diagnostic, Sink};
+use indigo_diag::{Diagnostic, Sink, Spanned};
 use indigo_film::{FilmFilter, FilmSize, Filter};
 use indigo_formats::response;
 use indigo_imaging::{Bloom, Exposure, PictureSettings, Region, Response, ToneMapping, WhiteBalance, png};
@@ -147,22 +147,12 @@ pub(super) fn picture(
     let downsize = filter(settings, "downsize_filter", sink);
     let foreground_alpha = settings.bool("render_foreground_alpha");
     let (camera, opening) = camera?;
-    let white = camera.text("white_balance");
-    let Some(xy) = illuminant::white_point(&white.value) else {
-        sink.push(
-            Diagnostic::error(codes::UNKNOWN_WHITE, white.span, format!("'{}' is not a white", white.value))
-                .expected("expected A, B, C, D50, D55, D65, D75, E, F1 to F12, or a chromaticity x y"),
-        );
-        return None;
-    };
+    let white_balance = white_balance(camera, sink);
     let exposure = Exposure {
         aperture_area: opening.aperture_area(),
         lens_sensor_dist: camera.real("lens_sensor_dist"),
         duration: camera.real("exposure_duration"),
     };
-    let white_balance = WhiteBalance::from_white(xy)
-        .map_err(|e| sink.push(Diagnostic::error(codes::UNKNOWN_WHITE, white.span, e.to_string())))
-        .ok()?;
     let region = film(settings, &mut Sink::new()).and_then(|f| {
         let [x, y] = f.region?;
         Region::new([x[0], y[0]], [x[1], y[1]], f.size).ok()
@@ -172,13 +162,53 @@ pub(super) fn picture(
         diffraction: opening.filter(),
         bloom: bloom(camera),
         tone_mapping,
-        white_balance,
+        white_balance: white_balance?,
         downsize,
         exposure,
         foreground_alpha,
         region,
         watermark,
     })
+}
+
+/// By `white_balance` where it is given, else by `white_point`; `None` after reporting that it is no white.
+fn white_balance(camera: &Node, sink: &mut Sink) -> Option<WhiteBalance> {
+    let Spanned { value: xy, span } = match camera.node("white_point") {
+        Some(point) if !camera.has("white_balance") => white_point(point)?,
+        point => {
+            if let Some(point) = point {
+                let message = "<white_point> has no effect beside <white_balance>";
+                sink.push(
+                    Diagnostic::warning(codes::WHITE_TWICE, point.span, message).hint("take one of them out"),
+                );
+                point.disregard();
+            }
+            named_white(camera, sink)?
+        }
+    };
+    WhiteBalance::from_white(xy)
+        .map_err(|e| sink.push(Diagnostic::error(codes::UNKNOWN_WHITE, span, e.to_string())))
+        .ok()
+}
+
+/// `None` where one of its numbers is wrong or missing, which was reported.
+fn white_point(node: &Node) -> Option<Spanned<[f64; 2]>> {
+    let of = node.node("chromaticity_coordinates")?;
+    let xy = ["x", "y"].map(|field| of.real(field));
+    let is_told = ["x", "y"].iter().all(|field| of.has(field) && !of.is_faulty(field));
+    is_told.then_some(Spanned::new(xy, of.span))
+}
+
+fn named_white(camera: &Node, sink: &mut Sink) -> Option<Spanned<[f64; 2]>> {
+    let Spanned { value, span } = camera.text("white_balance");
+    let found = illuminant::white_point(&value);
+    if found.is_none() {
+        sink.push(
+            Diagnostic::error(codes::UNKNOWN_WHITE, span, format!("'{value}' is not a white"))
+                .expected("expected A, B, C, D50, D55, D65, D75, E, F1 to F12, or a chromaticity x y"),
+        );
+    }
+    found.map(|xy| Spanned::new(xy, span))
 }
 
 fn bloom(camera: &Node) -> Option<Bloom> {

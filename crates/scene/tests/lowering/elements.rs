@@ -104,6 +104,33 @@ fn cameras() {
     assert_eq!(found(&white), [format!("{LINE}:{column}:E0309")]);
 }
 
+#[test]
+fn a_white_point_counts_unless_a_white_is_named() {
+    let point = |x: &str, y: &str| {
+        format!(
+            "<white_point><chromaticity_coordinates><x>{x}</x><y>{y}</y></chromaticity_coordinates></white_point>"
+        )
+    };
+    let with = |more: &str| CAMERA.replace("</camera>", &format!("{more}</camera>"));
+    let white = |more: &str| {
+        let text = format!("{HEAD}{}</scene>", with(more));
+        loaded(&text).scene.expect("a scene without faults").picture.white_balance.white_xy()
+    };
+    let named = "<white_balance>0.31 0.4</white_balance>";
+    assert_eq!(white(&point("0.31", "0.4")), white(named));
+    assert_ne!(white(&point("0.31", "0.4")), white(""));
+    let twice = with(&(named.to_owned() + &point("0.25", "0.3")));
+    let place = |camera: &str, at: &str, code: &str| {
+        format!("{LINE}:{}:{code}", camera.find(at).expect("the text is in the camera") + 1)
+    };
+    assert_eq!(found(&twice), [place(&twice, "<white_point>", "W0324")]);
+    assert_eq!(white(&(named.to_owned() + &point("0.25", "0.3"))), [0.31, 0.4]);
+    let impossible = with(&point("0.7", "0.6"));
+    assert_eq!(found(&impossible), [place(&impossible, "<chromaticity", "E0309")]);
+    let negative = with(&point("-7", "0.3"));
+    assert_eq!(found(&negative), [place(&negative, "-7", "E0203")]);
+}
+
 /// Where and with which code a camera with an aperture shape is refused.
 fn expect_aperture(shape: &str, at: &str, code: &str) {
     let camera = CAMERA.replace("</camera>", &format!("<aperture_shape>{shape}</aperture_shape></camera>"));

@@ -59,6 +59,20 @@ fn a_keyframe_takes_the_place_of_a_position_and_turns_what_has_been_turned() {
     assert_eq!(dump(&twice), dump(&once));
 }
 
+/// What the shift does is told by the pictures of the camera's own tests.
+#[test]
+fn a_lens_may_be_shifted_either_way() {
+    let scene = |more: &str| of(MODEL).replace("</camera>", &format!("{more}</camera>"));
+    let shift = |name: &str, metres: f64| {
+        scene(&format!("<lens_shift_{name}_distance>{metres}</lens_shift_{name}_distance>"))
+    };
+    for name in ["right", "up"] {
+        assert_same([&scene(""), &shift(name, 0.0), &shift(name, -0.001)]);
+    }
+    let [right, up] = ["right", "up"].map(|name| dump(&scene_with(&shift(name, 0.01), &[])));
+    assert!(right != up, "the two are not the same");
+}
+
 #[test]
 fn a_camera_may_have_a_keyframe() {
     let scene = |camera: &str| of(MODEL).replace(CAMERA, camera);

@@ -8,9 +8,11 @@ use super::{block, build, common, lamp, room, wall};
 use indigo_imaging::{LinearImage, Metadata, exr, png};
 use indigo_scene::Scene;
 
-/// A lens as wide as the room, focused before it, with natural vignetting.
+/// A lens as wide as the room, focused before it, with natural vignetting, shifted by a seventh of the sensor to the right
+/// and a tenth down.
 pub fn thin_lens_out_of_focus() -> Scene {
-    let lens = camera([0.0, -3.6, 0.0], [0.0, 1.0, 0.0], 0.42, "")
+    let shift = "<lens_shift_right_distance>0.006</lens_shift_right_distance><lens_shift_up_distance>-0.0042</lens_shift_up_distance>";
+    let lens = camera([0.0, -3.6, 0.0], [0.0, 1.0, 0.0], 0.42, shift)
         .replace("<aperture_radius>1e-5</aperture_radius>", "<aperture_radius>0.4</aperture_radius>")
         .replace("<focus_distance>1</focus_distance>", "<focus_distance>2.5</focus_distance>");
     build(&[common(lens), room(["white"; 4]), block("grey"), lamp(0.3, 1e5)])
