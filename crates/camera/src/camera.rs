@@ -1,15 +1,65 @@
-//! A camera: a lens behind an aperture.
+//! A camera: a lens behind an aperture, or none.
 
 use crate::diffraction::deflection::{Deflection, Offset};
-use crate::{Aperture, FarField, FilmPosition, LensRay, ThinLens};
+use crate::{
+    Aperture, FarField, FilmPosition, LensRay, Orthographic, Spherical, ThinLens, ThinLensParameters,
+};
 use indigo_math::{Float, Real, Vec2, Vec3};
 use indigo_spectrum::{LanePdf, SampledWavelengths};
 
+/// What makes an image of the scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CameraKind {
+    /// A thin lens.
+    ThinLens,
+    /// Nothing: rays are parallel.
+    Orthographic,
+    /// Nothing: all directions are seen from a point.
+    Spherical,
+}
+
+impl CameraKind {
+    /// Its name in scene files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::ThinLens => "thin-lens-perspective",
+            Self::Orthographic => "orthographic",
+            Self::Spherical => "spherical",
+        }
+    }
+
+    /// The geometry of such a camera; `None` where its directions do not span a plane.
+    pub fn optics(self, parameters: &ThinLensParameters) -> Option<Optics> {
+        Some(match self {
+            Self::ThinLens => Optics::ThinLens(ThinLens::new(parameters)?),
+            Self::Orthographic => Optics::Orthographic(Orthographic::new(parameters)?),
+            Self::Spherical => Optics::Spherical(Spherical::new(parameters)?),
+        })
+    }
+}
+
+/// Geometry, from film positions to rays and back.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Optics {
+    /// A thin lens.
+    ThinLens(ThinLens),
+    /// Parallel rays.
+    Orthographic(Orthographic),
+    /// All directions.
+    Spherical(Spherical),
+}
+
+impl From<ThinLens> for Optics {
+    fn from(lens: ThinLens) -> Self {
+        Self::ThinLens(lens)
+    }
+}
+
 /// Where paths begin: a thin lens, the opening through which light reaches it, and what that opening
-/// does to light.
+/// does to light; or rays without a lens.
 #[derive(Clone, Debug)]
 pub struct Camera {
-    lens: ThinLens,
+    optics: Optics,
     aperture: Aperture,
     /// Area of the opening, m².
     opening_m2: Real,
@@ -52,29 +102,50 @@ impl CameraRay {
 }
 
 impl Camera {
-    /// A lens behind an aperture whose square has the aperture's radius as half its side.
-    pub fn new(lens: ThinLens, aperture: Aperture) -> Self {
-        let opening_m2 = (lens.aperture_radius().to_f64().powi(2) * aperture.area()) as Real;
-        Self { lens, aperture, opening_m2, deflection: None }
+    /// A lens behind an aperture whose square has the aperture's radius as half its side. Cameras without a lens have
+    /// no use for it.
+    pub fn new(optics: impl Into<Optics>, aperture: Aperture) -> Self {
+        let optics = optics.into();
+        let opening_m2 = match &optics {
+            Optics::ThinLens(lens) => (lens.aperture_radius().to_f64().powi(2) * aperture.area()) as Real,
+            Optics::Orthographic(_) | Optics::Spherical(_) => 0.0,
+        };
+        Self { optics, aperture, opening_m2, deflection: None }
     }
 
-    /// Radius of the opening, metres: how far from the camera's position a ray may begin.
-    pub fn aperture_radius(&self) -> Real {
-        self.lens.aperture_radius()
+    /// How far from the camera's position a ray may begin, metres; infinite where that is no lens.
+    pub fn reach(&self) -> Real {
+        match &self.optics {
+            Optics::ThinLens(lens) => lens.aperture_radius(),
+            Optics::Orthographic(_) => Real::INFINITY,
+            Optics::Spherical(_) => 0.0,
+        }
     }
 
-    /// The same camera with diffraction by ray: `field` is the far field of what light passes.
+    /// The same camera with diffraction by ray: `field` is the far field of what light passes. Without a lens there is
+    /// none.
     #[must_use]
     pub fn with_diffraction(self, field: &FarField) -> Self {
-        let cycle = self.lens.cycle_per_nm();
-        Self { deflection: Some(Box::new(Deflection::new(field, cycle))), ..self }
+        let Optics::ThinLens(lens) = &self.optics else { return self };
+        let deflection = Deflection::new(field, lens.cycle_per_nm());
+        Self { deflection: Some(Box::new(deflection)), ..self }
+    }
+
+    /// The ray of a film position through a point of the aperture, if it has one.
+    #[inline]
+    fn through(&self, film: Vec2, lens: Vec2) -> LensRay {
+        match &self.optics {
+            Optics::ThinLens(thin) => thin.ray(film, self.aperture.sample(lens)),
+            Optics::Orthographic(parallel) => parallel.ray(film),
+            Optics::Spherical(sphere) => sphere.ray(film),
+        }
     }
 
     /// The ray of a film position, from (0, 0), top left, to (1, 1), for two numbers in [0, 1) that
     /// choose a point of the aperture, evenly over what is open. There is no diffraction.
     #[inline]
     pub fn ray(&self, film: Vec2, lens: Vec2) -> CameraRay {
-        CameraRay::new(self.lens.ray(film, self.aperture.sample(lens)), Offset::NONE, 0.0)
+        CameraRay::new(self.through(film, lens), Offset::NONE, 0.0)
     }
 
     /// Whether [`sample`](Self::sample) sends rays elsewhere than [`ray`](Self::ray).
@@ -92,36 +163,80 @@ impl Camera {
         diffraction: Vec2,
         lambda: &SampledWavelengths,
     ) -> CameraRay {
-        let Some(deflection) = &self.deflection else { return self.ray(film, lens) };
+        let (Some(deflection), Optics::ThinLens(thin)) = (&self.deflection, &self.optics) else {
+            return self.ray(film, lens);
+        };
         let offset = deflection.sample(diffraction, lambda);
-        let disc = self.lens.disc(offset.on_film);
-        CameraRay::new(self.lens.ray(film + offset.on_film, self.aperture.sample(lens)), offset, disc)
+        let disc = thin.disc(offset.on_film);
+        CameraRay::new(thin.ray(film + offset.on_film, self.aperture.sample(lens)), offset, disc)
     }
 
-    /// The film position that sees along a direction from a point of the lens, without diffraction: see
-    /// [`ThinLens::film_position`].
+    /// Where the ray begins by which a point of the scene is seen: at the point of the lens that was drawn, unless rays
+    /// are parallel, when there is but one place.
+    #[inline]
+    pub fn origin_towards(&self, p: Vec3, drawn: Vec3) -> Vec3 {
+        match &self.optics {
+            Optics::ThinLens(_) | Optics::Spherical(_) => drawn,
+            Optics::Orthographic(parallel) => parallel.foot(p),
+        }
+    }
+
+    /// The film position that sees along a direction from a point where rays begin, without diffraction. It may lie beside
+    /// the film. The one direction of parallel rays is for the caller to keep to.
     #[inline]
     pub fn film_position(&self, origin: Vec3, direction: Vec3) -> Option<FilmPosition> {
-        self.lens.film_position(origin, direction)
+        match &self.optics {
+            Optics::ThinLens(lens) => lens.film_position(origin, direction),
+            Optics::Orthographic(parallel) => parallel.film_position(origin, direction),
+            Optics::Spherical(sphere) => sphere.film_position(direction),
+        }
     }
 
-    /// Density (1/sr) of unit directions for film positions that are uniform over the film: see
-    /// [`ThinLens::pdf_direction`].
+    /// Whether all rays have the same direction, so that light from far away comes along one of them with probability 0,
+    /// and densities over area do not fall with distance.
     #[inline]
-    pub fn pdf_direction(&self, direction: Vec3) -> Real {
-        self.lens.pdf_direction(direction)
+    pub fn is_parallel(&self) -> bool {
+        matches!(self.optics, Optics::Orthographic(_))
+    }
+
+    /// Density (1/sr), as seen from where the ray begins, of what lies at a distance in metres, for film positions that are
+    /// uniform over the film. Over squared distance it is that over area across the ray, which alone parallel rays have:
+    /// only there the distance matters.
+    #[inline]
+    pub fn pdf_direction(&self, direction: Vec3, distance: Real) -> Real {
+        match &self.optics {
+            Optics::ThinLens(lens) => lens.pdf_direction(direction),
+            Optics::Orthographic(parallel) => parallel.density() * distance * distance,
+            Optics::Spherical(sphere) => sphere.pdf_direction(direction),
+        }
     }
 
     /// Over what part of the film the light of a point spreads that lies in a direction at a distance in metres, which
     /// may be infinite: the area of its blur where the opening is even, without diffraction; 0 in focus.
     #[inline]
     pub fn blur(&self, direction: Vec3, distance: Real) -> Real {
-        self.lens.blur(direction, distance) * self.opening_m2
+        match &self.optics {
+            Optics::ThinLens(lens) => lens.blur(direction, distance) * self.opening_m2,
+            Optics::Orthographic(_) | Optics::Spherical(_) => 0.0,
+        }
     }
 
     /// The viewing direction.
     pub fn forwards(&self) -> Vec3 {
-        self.lens.forwards()
+        match &self.optics {
+            Optics::ThinLens(lens) => lens.forwards(),
+            Optics::Orthographic(parallel) => parallel.forwards(),
+            Optics::Spherical(sphere) => sphere.forwards(),
+        }
+    }
+
+    /// How deep in the picture a point of render space lies, metres: along the viewing direction, or from the point from
+    /// which all directions are seen.
+    pub fn depth(&self, p: Vec3) -> Real {
+        match &self.optics {
+            Optics::ThinLens(_) | Optics::Orthographic(_) => p.dot(self.forwards()),
+            Optics::Spherical(_) => p.length(),
+        }
     }
 
     /// The shape of the opening.

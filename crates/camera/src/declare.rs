@@ -9,6 +9,16 @@ pub static CAMERA: Block = Block::new(
      2·atan(sensor_width / (2·lens_sensor_dist)), whatever the focus. A scene must have a camera.",
     &[
         Field::new(
+            "camera_type",
+            Kind::Choice(&["thin-lens-perspective", "orthographic", "spherical"]),
+            Presence::Default("thin-lens-perspective"),
+            "What kind of camera it is. `orthographic` has parallel rays: the picture shows as many metres as \
+             `sensor_width` says, which is that of a building rather than of a camera. `spherical` sees all directions from \
+             `pos`, in columns round `up` and rows from the zenith to the nadir; its picture should be twice as wide as \
+             high. Neither has a lens: all is in focus, without vignetting and diffraction. The exposure of the tone \
+             mappings `linear` and `camera` is computed as if there were one.",
+        ),
+        Field::new(
             "pos",
             Kind::Vec3,
             Presence::Optional,
@@ -69,7 +79,8 @@ pub static CAMERA: Block = Block::new(
             Kind::Real,
             Presence::Default("0"),
             "How far the lens is shifted to the right of the middle of the sensor: the picture shows what lies further to \
-             the right, and parallel lines stay parallel. The lens stays at `pos`: it is the sensor that moves.",
+             the right, and parallel lines stay parallel. The lens stays at `pos`: it is the sensor that moves. Without a \
+             lens, an `orthographic` sensor itself is moved as far.",
         )
         .unit("m"),
         Field::new(
@@ -144,7 +155,6 @@ pub static CAMERA: Block = Block::new(
 .with_later(&[
     Later::new("name", "3.0"),
     Later::new("uid", "3.0"),
-    Later::new("camera_type", "2.2").instead("is ignored: the camera is a thin lens").unless("thin-lens-perspective"),
 ])
 .with_ignored(&["polarising_filter", "polarising_angle", "glare_weight", "glare_radius", "glare_num_blades"])
 .with_example(

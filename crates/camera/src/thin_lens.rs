@@ -36,7 +36,7 @@ pub struct ThinLensParameters {
 
 impl ThinLensParameters {
     /// Unit vectors to the right, up and forwards; `None` where `forwards` and `up` do not span a plane.
-    fn axes(&self) -> Option<[Vec3d; 3]> {
+    pub(crate) fn axes(&self) -> Option<[Vec3d; 3]> {
         let forwards = self.forwards.try_normalized()?;
         let right = forwards.cross(self.up.try_normalized()?);
         // Below this sine the direction of `up` is lost in rounding.

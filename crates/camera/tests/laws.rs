@@ -1,6 +1,6 @@
 //! The lens is sampled evenly, and the film is a faithful map of directions.
 
-use indigo_camera::{Aperture, Blades, Camera, GreyImage, ThinLens, ThinLensParameters};
+use indigo_camera::{Aperture, Blades, Camera, CameraKind, GreyImage, ThinLens, ThinLensParameters};
 use indigo_math::{Float, Real, Vec2, Vec3, Vec3d};
 use indigo_testkit::chi2::{Chi2, Domain};
 use indigo_testkit::rng::Rng;
@@ -180,6 +180,86 @@ fn extreme_numbers_give_rays() {
                     "{ray:?}"
                 );
             }
+        }
+    }
+}
+
+/// A camera of a kind that looks along x, with z up, from [`POSITION`].
+fn without_lens(kind: CameraKind) -> Camera {
+    let parameters = ThinLensParameters {
+        position: POSITION.cast(),
+        forwards: Vec3d::new(1.0, 0.0, 0.0),
+        up: Vec3d::new(0.0, 0.0, 1.0),
+        aperture_radius: 0.1,
+        focus_distance: 2.0,
+        sensor_width: 3.0,
+        sensor_height: 2.0,
+        lens_sensor_dist: 0.03,
+        lens_shift: [0.0; 2],
+        vignetting: true,
+    };
+    Camera::new(kind.optics(&parameters).expect("a camera that looks somewhere"), Aperture::Circular)
+}
+
+/// Cells of the sphere have the solid angle that the density tells, over all of it. False-alarm probability 1e-4.
+#[test]
+fn a_spherical_camera_sees_directions_by_its_density() {
+    let camera = without_lens(CameraKind::Spherical);
+    let result = Chi2::new(Domain::Sphere).run(
+        |rng| {
+            let d = camera.ray(random(rng), Vec2::new(0.5, 0.5)).direction;
+            Some(d.to_array().map(Float::to_f64))
+        },
+        |d| {
+            let d = Vec3d::from(d).cast();
+            let at_distance = camera.pdf_direction(d, 7.0);
+            assert_eq!(at_distance, camera.pdf_direction(d, 1.0));
+            at_distance.to_f64()
+        },
+    );
+    assert!(result.passed(), "{result}");
+}
+
+/// Rays of an orthographic camera fill the sensor evenly, and as evenly what lies before it: the density over area across them
+/// is one over that of the sensor at any distance. False-alarm probability 1e-4.
+#[test]
+fn an_orthographic_camera_sees_by_area() {
+    let camera = without_lens(CameraKind::Orthographic);
+    let result = Chi2::new(Domain::Square).run(
+        |rng| {
+            let ray = camera.ray(random(rng), Vec2::new(0.5, 0.5));
+            assert_eq!(ray.direction, camera.forwards());
+            let p = ray.origin + ray.direction * (9.0 * rng.uniform_f32() as Real) - POSITION;
+            Some([0.5 - p.y.to_f64() / 3.0, 0.5 + p.z.to_f64() / 2.0, 0.0])
+        },
+        |_| 1.0,
+    );
+    assert!(result.passed(), "{result}");
+    for distance in [0.5, 1.0, 20.0] {
+        let density = camera.pdf_direction(camera.forwards(), distance) / (distance * distance);
+        assert!((density * 6.0 - 1.0).abs() < 1e-6, "{density}");
+    }
+}
+
+/// Whatever a ray of any kind of camera passes, is seen by one that begins where that one does, at its film position.
+#[test]
+fn what_is_seen_is_found_again() {
+    let lens = camera(4.0, 0.05);
+    let others = [CameraKind::Orthographic, CameraKind::Spherical].map(without_lens);
+    let mut rng = Rng::new(6);
+    for camera in [lens].iter().chain(&others) {
+        for _ in 0..1000 {
+            let film = Vec2::new(0.5, 0.5) + (random(&mut rng) - Vec2::new(0.5, 0.5)) * 0.98;
+            let ray = camera.ray(film, random(&mut rng));
+            let seen = ray.origin + ray.direction * 3.0;
+            let origin = camera.origin_towards(seen, ray.origin);
+            assert!((origin - ray.origin).length() < 1e-5, "{ray:?} {origin:?}");
+            let found =
+                camera.film_position(origin, (seen - origin).normalized()).expect("before the camera");
+            // Near the poles a turn is told by a hundredth of the direction.
+            let way = found.position - film;
+            assert!(way.x.abs() < 1e-4 && way.y.abs() < 1e-4, "{film:?} {found:?}");
+            assert_eq!(found.importance > 0.0, ray.importance > 0.0);
         }
     }
 }

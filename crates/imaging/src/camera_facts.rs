@@ -1,11 +1,14 @@
 //! The camera of a picture, as its files tell it.
 
 use crate::Metadata;
+use indigo_camera::CameraKind;
 use indigo_math::Vec3d;
 
 /// What a picture's files say of the camera that took it; lengths in metres, places in the scene's world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CameraFacts {
+    /// What kind of camera it is.
+    pub kind: CameraKind,
     /// Centre of the lens.
     pub position: Vec3d,
     /// The direction of view, a unit vector.
@@ -20,6 +23,8 @@ pub struct CameraFacts {
     pub aperture_radius: f64,
     /// Distance from the sensor to the lens.
     pub lens_sensor_dist: f64,
+    /// How far the lens is shifted from before the middle of the sensor: to the right, and up.
+    pub lens_shift: [f64; 2],
     /// Distance of the plane of focus, which may be infinite; `None` where nobody has found it yet.
     pub focus_distance: Option<f64>,
     /// How long the shutter is open, in seconds.
@@ -37,8 +42,11 @@ impl CameraFacts {
     }
 
     /// The focal length over the diameter of the aperture: of the thin lens that images the plane of focus on the sensor.
-    /// `None` where that is not known.
+    /// `None` where that is not known, or there is no lens.
     pub(crate) fn f_number(&self) -> Option<f64> {
+        if self.kind != CameraKind::ThinLens {
+            return None;
+        }
         let focal_length = 1.0 / (1.0 / self.lens_sensor_dist + 1.0 / self.focus_distance?);
         Some(focal_length / (2.0 * self.aperture_radius))
     }
@@ -57,19 +65,32 @@ impl CameraFacts {
         matrix
     }
 
-    /// From the world to the picture, from (0, 0) in its upper left corner to (1, 1), and one over the depth in metres.
-    pub(crate) fn world_to_ndc(&self) -> Matrix {
-        let (x, y) = (self.lens_sensor_dist / self.sensor_width, self.lens_sensor_dist / self.sensor_height);
-        let projection =
-            [[x, 0.0, 0.0, 0.0], [0.0, -y, 0.0, 0.0], [0.5, 0.5, 0.0, 1.0], [0.0, 0.0, 1.0, 0.0]];
-        let camera = self.world_to_camera();
-        camera
-            .map(|row| [0, 1, 2, 3].map(|column: usize| (0..4).map(|i| row[i] * projection[i][column]).sum()))
+    /// From the world to the picture, from (0, 0) in its upper left corner to (1, 1), and one over the depth in metres, or
+    /// the depth itself if rays are parallel. `None` where no matrix does that.
+    pub(crate) fn world_to_ndc(&self) -> Option<Matrix> {
+        let size = [self.sensor_width, self.sensor_height];
+        let shift = [0, 1].map(|i| self.lens_shift[i] / size[i]);
+        let projection = match self.kind {
+            CameraKind::ThinLens => {
+                let [x, y] = size.map(|size| self.lens_sensor_dist / size);
+                let middle = [0.5 - shift[0], 0.5 + shift[1], 0.0, 1.0];
+                [[x, 0.0, 0.0, 0.0], [0.0, -y, 0.0, 0.0], middle, [0.0, 0.0, 1.0, 0.0]]
+            }
+            CameraKind::Orthographic => {
+                let [x, y] = size.map(f64::recip);
+                let middle = [0.5 - shift[0], 0.5 + shift[1], 0.0, 1.0];
+                [[x, 0.0, 0.0, 0.0], [0.0, -y, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], middle]
+            }
+            CameraKind::Spherical => return None,
+        };
+        let product = |row: [f64; 4], column: usize| (0..4).map(|i| row[i] * projection[i][column]).sum();
+        Some(self.world_to_camera().map(|row| [0, 1, 2, 3].map(|column| product(row, column))))
     }
 
     /// Says the same in words, by the names that scenes use.
     pub fn describe(&self, metadata: &mut Metadata) {
         let vector = |v: Vec3d| format!("{} {} {}", v.x, v.y, v.z);
+        metadata.set("camera_type", self.kind.name());
         metadata.set("camera_position", vector(self.position));
         metadata.set("camera_forwards", vector(self.forwards));
         metadata.set("camera_up", vector(self.up));
@@ -77,6 +98,10 @@ impl CameraFacts {
         metadata.set("sensor_height", self.sensor_height);
         metadata.set("aperture_radius", self.aperture_radius);
         metadata.set("lens_sensor_dist", self.lens_sensor_dist);
+        if self.lens_shift != [0.0; 2] {
+            metadata.set("lens_shift_right_distance", self.lens_shift[0]);
+            metadata.set("lens_shift_up_distance", self.lens_shift[1]);
+        }
         if let Some(distance) = self.focus_distance {
             metadata.set("focus_distance", distance);
         }
@@ -90,6 +115,7 @@ mod tests {
 
     fn camera() -> CameraFacts {
         CameraFacts {
+            kind: CameraKind::ThinLens,
             position: Vec3d::new(1.0, 2.0, 3.0),
             forwards: Vec3d::new(0.0, 1.0, 0.0),
             up: Vec3d::new(0.0, 0.0, 1.0),
@@ -97,6 +123,7 @@ mod tests {
             sensor_height: 0.024,
             aperture_radius: 0.0025,
             lens_sensor_dist: 0.02,
+            lens_shift: [0.003, -0.006],
             focus_distance: Some(f64::INFINITY),
             exposure_duration: 0.01,
             film_iso: None,
@@ -114,11 +141,17 @@ mod tests {
         // Five metres ahead, two to the right and one up.
         let p = [3.0, 7.0, 4.0];
         assert_eq!(transformed(p, camera.world_to_camera()), [2.0, 1.0, 5.0, 1.0]);
-        let [x, y, z, w] = transformed(p, camera.world_to_ndc());
-        let expected = [0.5 + 2.0 / 5.0 * 0.02 / 0.036, 0.5 - 1.0 / 5.0 * 0.02 / 0.024, 1.0 / 5.0];
-        for (got, expected) in [x, y, z].into_iter().zip(expected) {
-            assert!((got / w - expected).abs() < 1e-12, "{got} {w} {expected}");
+        let perspective =
+            [0.5 + (2.0 / 5.0 * 0.02 - 0.003) / 0.036, 0.5 - (1.0 / 5.0 * 0.02 + 0.006) / 0.024, 1.0 / 5.0];
+        let parallel = [0.5 + (2.0 - 0.003) / 0.036, 0.5 - (1.0 + 0.006) / 0.024, 5.0];
+        for (kind, expected) in [(CameraKind::ThinLens, perspective), (CameraKind::Orthographic, parallel)] {
+            let matrix = CameraFacts { kind, ..camera }.world_to_ndc().expect("a matrix");
+            let [x, y, z, w] = transformed(p, matrix);
+            for (got, expected) in [x, y, z].into_iter().zip(expected) {
+                assert!((got / w - expected).abs() < 1e-9 * expected.abs(), "{got} {w} {expected}");
+            }
         }
+        assert_eq!(CameraFacts { kind: CameraKind::Spherical, ..camera }.world_to_ndc(), None);
     }
 
     /// By the lens equation: focused at twice its focal length a lens stands as far from the sensor.

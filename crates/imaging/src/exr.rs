@@ -95,7 +95,7 @@ fn add_camera(attributes: &mut LayerAttributes, camera: &CameraFacts) {
     let single = |v: f64| v as f32;
     let matrix = |m: Matrix| Some(std::array::from_fn(|i| m[i / 4][i % 4] as f32));
     attributes.world_to_camera = matrix(camera.world_to_camera());
-    attributes.world_to_normalized_device = matrix(camera.world_to_ndc());
+    attributes.world_to_normalized_device = camera.world_to_ndc().and_then(matrix);
     attributes.exposure = Some(single(camera.exposure_duration));
     attributes.aperture = camera.f_number().map(single);
     attributes.focus = camera.focus_distance.map(single);

@@ -192,6 +192,7 @@ fn metadata() -> Metadata {
     metadata.set("scene_file_path", "σκηνή.igs");
     metadata.captured = Some("2026:02:28 23:59:58".to_owned());
     metadata.camera = Some(CameraFacts {
+        kind: indigo_camera::CameraKind::ThinLens,
         position: Vec3d::new(1.0, 2.0, 3.0),
         forwards: Vec3d::new(0.0, 1.0, 0.0),
         up: Vec3d::new(0.0, 0.0, 1.0),
@@ -200,6 +201,7 @@ fn metadata() -> Metadata {
         // The sensor is 2 cm behind a lens of 2 / (1 + 2 / 250) cm, whose opening is a quarter of that.
         aperture_radius: 0.02 / 1.008 / 8.0,
         lens_sensor_dist: 0.02,
+        lens_shift: [0.0; 2],
         focus_distance: Some(2.5),
         exposure_duration: 0.01,
         film_iso: Some(400.0),

@@ -103,6 +103,17 @@ pub struct Source {
     pub chance: Real,
 }
 
+impl Source {
+    /// The point of the lamp; `None` for the environment.
+    #[inline]
+    pub fn point(&self) -> Option<Vec3> {
+        match &self.place {
+            Place::Lamp(_, point) => Some(point.p),
+            Place::Environment(..) => None,
+        }
+    }
+}
+
 /// A [`Source`] as it is seen from a point.
 #[derive(Clone, Copy, Debug)]
 pub struct SourceView {

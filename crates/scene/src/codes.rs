@@ -45,6 +45,10 @@ indigo_decl::codes! {
     TOO_DENSE = "W0323", "(a box of a metre whose medium scatters 100,000 times a metre)";
     /// A camera whose white is given twice.
     WHITE_TWICE = "W0324", "(a `camera` with `white_balance` and `white_point`)";
+    /// Something that only a lens makes use of, for a camera without one.
+    NO_LENS = "W0325", "(an orthographic `camera` with an `obstacle_map`)";
+    /// A file that cannot be had, which something stands in for.
+    PLACEHOLDER = "W0326", "<renderer_settings><placeholders>true</placeholders></renderer_settings><mesh><name>m</name><external><path>none.obj</path></external></mesh><model><pos>0 0 0</pos><scale>1</scale><mesh_name>m</mesh_name></model>";
     /// A name that nothing defines.
     UNKNOWN_NAME = "E0301", "<sphere><center>0 0 0</center><radius>1</radius><material_name>whiet</material_name></sphere>";
     /// A file that cannot be had.

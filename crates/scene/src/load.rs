@@ -102,6 +102,7 @@ pub fn load(path: &str, options: &LoadOptions) -> Loaded {
     let witnessed = LoadOptions { resolver: &witness, ..*options };
     let context = lower::Context {
         options: &witnessed,
+        placeholders: bound.settings.bool("placeholders"),
         development: options.resolver,
         sources: &mut sources,
         sink: &mut sink,
@@ -122,8 +123,13 @@ pub fn load_development(path: &str, options: &LoadOptions) -> LoadedDevelopment 
     let mut sources = SourceMap::default();
     let mut sink = Sink::new();
     let development = read_and_bind(path, options, &mut sources, &mut sink).and_then(|bound| {
-        let context =
-            lower::Context { options, development: options.resolver, sources: &mut sources, sink: &mut sink };
+        let context = lower::Context {
+            options,
+            placeholders: bound.settings.bool("placeholders"),
+            development: options.resolver,
+            sources: &mut sources,
+            sink: &mut sink,
+        };
         lower::development(&bound.root, &bound.settings, path, context)
     });
     LoadedDevelopment { development: development.filter(|_| !sink.has_errors()), sources, sink }

@@ -62,8 +62,13 @@ impl Scene {
 
     /// Whether the surface of a medium passes the camera within twice its aperture: probes lean by less than
     /// 60 degrees towards any plane, so that one of them meets what passes within the aperture itself.
+    ///
+    /// Rays that begin all over a sensor may begin anywhere.
     fn is_interface_near_camera(&self) -> bool {
-        let reach = 2.0 * self.camera.aperture_radius().max(self.nudge_m);
+        let reach = 2.0 * self.camera.reach().max(self.nudge_m);
+        if reach.is_infinite() {
+            return true;
+        }
         DIRECTIONS.iter().any(|&d| {
             let d = Vec3::from(d);
             let mut ray = Ray { o: d * -reach, d, t_min: 0.0, t_max: 2.0 * reach };

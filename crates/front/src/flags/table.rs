@@ -137,6 +137,12 @@ pub static FLAGS: &[Flag] = &[
         "Also save a denoised picture, if the system has the library Open Image Denoise; INDIGO_OIDN may name its file.",
     ),
     flag(
+        "placeholders",
+        None,
+        Action::SwitchOn("-placeholders", "placeholders"),
+        "Render although files of textures and meshes are missing: something that is seen at a glance stands in for them, with a warning each.",
+    ),
+    flag(
         "merge",
         None,
         Action::Merge,

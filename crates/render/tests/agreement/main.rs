@@ -125,6 +125,8 @@ grid! {
         all_lights_together,
         portal_lit_room,
         thin_lens_out_of_focus,
+        orthographic_camera,
+        spherical_camera,
         lamps_out_of_focus,
         lamp_deflected_straight,
         coloured_walls_and_lamps,

@@ -140,7 +140,7 @@ fn a_shifted_lens_moves_the_picture() {
     for bidirectional in [false, true] {
         let mut scene = scene(&text);
         scene.transport.bidirectional = bidirectional;
-        let images: Vec<_> = (0..16).map(|seed| sensor(&scene, 40 + seed, 128)).collect();
+        let images: Vec<_> = (0..16).map(|seed| sensor(&scene, 40 + seed, 32)).collect();
         let inside = Moments::of(images.iter().map(|i| mean(i, 1, [columns, rows])));
         let all = Moments::of(images.iter().map(|i| mean(i, 1, [[0, SIDE]; 2])));
         // 1e-3 of a pixel's width, the blur of the lens and the rounding of positions, may lie across the lamp's edge.
@@ -148,6 +148,57 @@ fn a_shifted_lens_moves_the_picture() {
         assert_near(&format!("{what}: the lamp"), &inside, 1e5 * NITS_PER_UNIFORM, 5e-3);
         assert_near(&format!("{what}: the picture"), &all, lit * 1e5 * NITS_PER_UNIFORM, 5e-3);
     }
+}
+
+/// The picture of a camera of some type whose `sensor_width` is 2, before a lamp of 1.5 m, from some distance: the lamp's
+/// luminance in columns and rows, and the part of the film that it covers.
+fn expect_without_lens(kind: &str, distance: f64, inside: [[usize; 2]; 2], covered: f64, more: &str) {
+    let camera = flat_camera([0.0, 0.0, -distance], [0.0, 0.0, 1.0], 20.0)
+        .replace("</camera>", &format!("<camera_type>{kind}</camera_type>{more}</camera>"));
+    let text = scene_file(&[
+        settings(SIDE as u32, "<splat_filter><box/></splat_filter>"),
+        camera,
+        format!(
+            "<rectanglelight><pos>0 0 0</pos><width>1.5</width><height>1.5</height><spectrum>{}</spectrum></rectanglelight>",
+            uniform(1e5)
+        ),
+    ]);
+    for bidirectional in [false, true] {
+        let mut scene = scene(&text);
+        scene.transport.bidirectional = bidirectional;
+        let images: Vec<_> = (0..8).map(|seed| sensor(&scene, 70 + seed, 32)).collect();
+        let lamp = Moments::of(images.iter().map(|i| mean(i, 1, inside)));
+        let all = Moments::of(images.iter().map(|i| mean(i, 1, [[0, SIDE]; 2])));
+        let what = format!("{kind} from {distance} m, bidirectional {bidirectional}");
+        assert_near(&format!("{what}: the lamp"), &lamp, 1e5 * NITS_PER_UNIFORM, 5e-3);
+        assert_near(&format!("{what}: the picture"), &all, covered * 1e5 * NITS_PER_UNIFORM, 5e-3);
+    }
+}
+
+/// 1.5 m of 2 are 24 of 32 columns, from anywhere; a shift of an eighth of a metre is of two pixels.
+#[test]
+fn parallel_rays_show_things_in_their_size() {
+    let covered = 0.75 * 0.75;
+    for distance in [0.5, 40.0] {
+        expect_without_lens("orthographic", distance, [[4, 28]; 2], covered, "");
+    }
+    let shift = "<lens_shift_right_distance>0.125</lens_shift_right_distance><lens_shift_up_distance>0.0625</lens_shift_up_distance>";
+    expect_without_lens("orthographic", 1.0, [[2, 26], [5, 29]], covered, shift);
+}
+
+/// At an angle φ from straight ahead a lamp that reaches a metres up and to the sides at a distance d is seen up to
+/// atan(a cos φ / d).
+#[test]
+fn a_spherical_camera_shows_things_by_their_angles() {
+    let (half, distance) = (0.75, 0.5);
+    let side = f64::atan2(half, distance);
+    let steps = 1000;
+    let height = |i: u32| {
+        2.0 * (half / distance * (side * (f64::from(2 * i + 1) / f64::from(steps) - 1.0)).cos()).atan()
+    };
+    let covered = (0..steps).map(height).sum::<f64>() / f64::from(steps) * 2.0 * side / (2.0 * PI * PI);
+    // 56° and, at the least, 39° of 90: here are 45° and 34°.
+    expect_without_lens("spherical", distance, [[12, 20], [10, 22]], covered, "");
 }
 
 /// A lamp of a centimetre out of focus, before a lens of 20 cm: each point of the disc sees it through

@@ -70,6 +70,11 @@ impl Diffuse {
         Self { albedo: Reflectance::Spectrum(Spectrum::uniform(0.5)) }
     }
 
+    /// A surface in a colour that is seen at a glance.
+    pub fn magenta() -> Self {
+        Self { albedo: Reflectance::Spectrum(Spectrum::rgb_reflectance([0.8, 0.0, 0.8])) }
+    }
+
     /// From its element.
     pub fn build(node: &Node, resources: &mut dyn MaterialResources) -> Self {
         let albedo =

@@ -340,6 +340,11 @@ impl Material {
         Self::Diffuse(Surface { kind: diffuse::Diffuse::black(), bump: None })
     }
 
+    /// A diffuse surface in a colour that is seen at a glance.
+    pub fn magenta() -> Self {
+        Self::Diffuse(Surface { kind: diffuse::Diffuse::magenta(), bump: None })
+    }
+
     /// Whether light passes as if the surface were not there.
     #[inline]
     pub fn is_invisible(&self) -> bool {

@@ -6,7 +6,7 @@ use super::{Context, aperture};
 use crate::codes;
 use crate::scene::FilmSettings;
 use crate::settings::Settings;
-use indigo_camera::{Aperture, Camera, Pupil, ThinLens, ThinLensParameters};
+use indigo_camera::{Aperture, Camera, CameraKind, Pupil, ThinLens, ThinLensParameters};
 use indigo_decl::Node;
 use indigo_decl::codes::OUT_OF_RANGE;
 use indigo_diag::{Diagnostic, Sink};
@@ -20,6 +20,7 @@ const ASPECT_TOLERANCE: f64 = 0.01;
 
 /// A camera whose focus may still have to be found.
 pub(super) struct Unfocused {
+    kind: CameraKind,
     lens: ThinLensParameters,
     aperture: Aperture,
     pupil: Pupil,
@@ -35,6 +36,7 @@ pub(super) fn parameters(
     film: Option<&FilmSettings>,
     context: &mut Context,
 ) -> Option<Unfocused> {
+    let kind = kind(node);
     let (sensor_width, aspect) = (node.real("sensor_width"), node.real("aspect_ratio"));
     let autofocus = node.flag("autofocus");
     let focus_distance = node.opt_real("focus_distance").map_or(f64::INFINITY, |v| v.value);
@@ -56,10 +58,14 @@ pub(super) fn parameters(
     };
     let is_size_known = !settings.is_faulty("width") && !settings.is_faulty("height");
     if let Some(film) = film.filter(|_| is_size_known && !node.is_faulty("aspect_ratio")) {
-        warn_of_aspect(node, aspect, film, context.sink);
+        warn_of_aspect(node, kind, aspect, film, context.sink);
     }
     let aperture = aperture::aperture(node, context);
-    let diffraction = Diffraction::of(settings);
+    let mut diffraction = Diffraction::of(settings);
+    if kind != CameraKind::ThinLens {
+        diffraction = Diffraction::Off;
+        warn_without_lens(node, kind, context.sink);
+    }
     let pupil = pupil(node, &aperture, diffraction, context);
     if ThinLens::new(&lens).is_none() {
         refuse_directions(node, context.sink);
@@ -67,7 +73,28 @@ pub(super) fn parameters(
         node.disregard();
         return None;
     }
-    Some(Unfocused { lens, aperture, pupil, diffraction, autofocus })
+    Some(Unfocused { kind, lens, aperture, pupil, diffraction, autofocus })
+}
+
+fn kind(node: &Node) -> CameraKind {
+    let name = node.text("camera_type").value;
+    let of_name = |kind: &CameraKind| kind.name() == name;
+    // A wrong name was reported.
+    [CameraKind::Orthographic, CameraKind::Spherical]
+        .into_iter()
+        .find(of_name)
+        .unwrap_or(CameraKind::ThinLens)
+}
+
+/// Warns of what only a lens makes use of, where that is more than exporters write in any case.
+fn warn_without_lens(node: &Node, kind: CameraKind, sink: &mut Sink) {
+    let shifts = ["lens_shift_right_distance", "lens_shift_up_distance"];
+    let is_shifted = |field: &&&str| kind == CameraKind::Spherical && node.real(field) != 0.0;
+    let fields = shifts.iter().filter(is_shifted).chain(&["obstacle_map"]);
+    for field in fields.filter(|field| node.has(field)) {
+        let message = format!("<{field}> has no effect on a camera of type {}", kind.name());
+        sink.push(Diagnostic::warning(codes::NO_LENS, node.span_of(field), message).hint("take it out"));
+    }
 }
 
 /// The camera's place in the world; the origin where that is wrong.
@@ -104,8 +131,20 @@ fn refuse_directions(node: &Node, sink: &mut Sink) {
     );
 }
 
-fn warn_of_aspect(node: &Node, aspect: f64, film: &FilmSettings, sink: &mut Sink) {
+fn warn_of_aspect(node: &Node, kind: CameraKind, aspect: f64, film: &FilmSettings, sink: &mut Sink) {
     let picture = f64::from(film.size.width()) / f64::from(film.size.height());
+    if kind == CameraKind::Spherical {
+        if (picture / 2.0 - 1.0).abs() > ASPECT_TOLERANCE {
+            let message = format!(
+                "the picture of all directions is {picture:.4} times as wide as high: it will look stretched"
+            );
+            sink.push(
+                Diagnostic::warning(codes::ASPECT_RATIO, node.span_of("camera_type"), message)
+                    .hint("make it twice as wide as high"),
+            );
+        }
+        return;
+    }
     if (aspect / picture - 1.0).abs() > ASPECT_TOLERANCE {
         sink.push(
             Diagnostic::warning(
@@ -189,7 +228,7 @@ pub(super) fn focus(
     accel: &Accel,
     is_unseen: impl Fn(&SurfacePoint) -> bool,
 ) -> Unfocused {
-    if camera.autofocus {
+    if camera.autofocus && camera.kind == CameraKind::ThinLens {
         let forwards = camera.lens.forwards.normalized();
         // A lens without directions was reported.
         let middle = camera.lens.middle_direction().unwrap_or(forwards);
@@ -219,6 +258,7 @@ impl Unfocused {
         let lens = &self.lens;
         let forwards = lens.forwards.normalized();
         CameraFacts {
+            kind: self.kind,
             position,
             forwards,
             up: forwards.cross(lens.up).cross(forwards).normalized(),
@@ -226,6 +266,7 @@ impl Unfocused {
             sensor_height: lens.sensor_height,
             aperture_radius: lens.aperture_radius,
             lens_sensor_dist: lens.lens_sensor_dist,
+            lens_shift: lens.lens_shift,
             focus_distance: (!self.autofocus).then_some(lens.focus_distance),
             exposure_duration: picture.exposure.duration,
             film_iso: picture.film_iso(),
@@ -244,7 +285,7 @@ impl Unfocused {
 
     /// The camera.
     pub(super) fn into_camera(self) -> Option<Camera> {
-        let camera = Camera::new(ThinLens::new(&self.lens)?, self.aperture);
+        let camera = Camera::new(self.kind.optics(&self.lens)?, self.aperture);
         if self.diffraction != Diffraction::Rays {
             return Some(camera);
         }

@@ -326,10 +326,17 @@ impl<'a> Geometry<'a> {
         let called = meshes.meant(&name.value);
         let mesh = meshes.get(&called, name.span, context)?;
         let id = mesh.id;
-        let uv = UvSets::Named(&mesh.uv_names);
-        let named = slot_names(node, mesh, context.sink);
-        let slots: Vec<u32> =
-            named.iter().map(|(name, span)| materials.get(name, *span, uv, context)).collect();
+        let (named, slots) = if mesh.is_stand_in {
+            if node.block.declares("materials") {
+                node.disregard_field("materials");
+            }
+            (vec![(String::new(), name.span)], vec![materials.stand_in()])
+        } else {
+            let named = slot_names(node, mesh, context.sink);
+            let slots =
+                named.iter().map(|(name, span)| materials.get(name, *span, mesh.uv(), context)).collect();
+            (named, slots)
+        };
         let object = Object::Mesh { mesh: id, transform };
         self.refuse_far(&object, mesh.reach, node.span, context.sink);
         // Of lamps the triangles are looked at.

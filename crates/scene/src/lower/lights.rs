@@ -3,7 +3,7 @@
 use super::geometry::Geometry;
 use super::lamps::{self, Shape};
 use super::materials::{MaterialTable, UvSets};
-use super::meshes::MeshTable;
+use super::meshes::{Mesh, MeshTable};
 use super::{Context, environment, placement};
 use crate::codes;
 use indigo_decl::Node;
@@ -64,10 +64,9 @@ impl Lights {
                 continue;
             };
             let name = node.text("mesh_name");
-            let uv_names = meshes.get(&name.value, name.span, context).map(|m| m.uv_names.clone());
             let shape = Shape::new(geometry.object(object), meshes.triangles(mesh));
             shape.report_rounding(node.span, context.sink);
-            let uv = UvSets::Named(uv_names.as_deref().unwrap_or_default());
+            let uv = meshes.known(&name.value).map_or(UvSets::Named(&[]), Mesh::uv);
             self.lamps.push(lamps::mesh_light(node, &shape, uv, materials, context));
         }
     }
@@ -106,10 +105,9 @@ impl Lights {
             first = first.or(Some(node.span));
             let transform = placement::transform(node, context.sink);
             let name = node.text("mesh_name");
-            let Some((mesh, reach)) = meshes.get(&name.value, name.span, context).map(|m| (m.id, m.reach))
-            else {
-                continue;
-            };
+            let mesh = meshes.get(&name.value, name.span, context).filter(|mesh| !mesh.is_stand_in);
+            // No cube lets in light as an opening does.
+            let Some((mesh, reach)) = mesh.map(|m| (m.id, m.reach)) else { continue };
             let object = Object::Mesh { mesh, transform };
             geometry.refuse_far(&object, reach, node.span, context.sink);
             let object = geometry.to_render_space(object);

@@ -45,6 +45,7 @@ pub(super) struct MaterialTable<'a> {
     /// Blends whose constituents are being built, from the outermost in.
     open: Vec<String>,
     black: Option<MaterialId>,
+    stand_in: Option<MaterialId>,
     layers: Layers,
     /// What materials emit, as far as that was asked.
     emissions: HashMap<String, Option<Emission<'a>>>,
@@ -65,6 +66,7 @@ impl<'a> MaterialTable<'a> {
             asked_for: HashSet::new(),
             open: vec![],
             black: None,
+            stand_in: None,
         }
     }
 
@@ -207,6 +209,16 @@ impl<'a> MaterialTable<'a> {
         }
         let id = self.add(Material::black(), "black");
         self.black = Some(id);
+        id
+    }
+
+    /// The surface of what stands in for things that are missing.
+    pub(super) fn stand_in(&mut self) -> MaterialId {
+        if let Some(id) = self.stand_in {
+            return id;
+        }
+        let id = self.add(Material::magenta(), "stand-in");
+        self.stand_in = Some(id);
         id
     }
 

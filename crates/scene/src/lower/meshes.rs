@@ -1,9 +1,10 @@
 //! Meshes by name, read when they are first used.
 
 use super::Context;
+use super::materials::UvSets;
 use super::names::Names;
 use crate::codes;
-use indigo_decl::{MeshData, Node};
+use indigo_decl::{MeshData, Node, Resolved};
 use indigo_diag::{Diagnostic, Sink, Span};
 use indigo_formats::read_mesh;
 use indigo_geom::{MeshBuffers, TriangleMesh};
@@ -21,6 +22,16 @@ pub(super) struct Mesh {
     pub(super) uv_names: Vec<(String, u32)>,
     /// The largest coordinate of its vertices, of either sign.
     pub(super) reach: f64,
+    /// Whether it stands in for one whose file is missing; then it has one slot, without a name, and one uv set that
+    /// answers to all names.
+    pub(super) is_stand_in: bool,
+}
+
+impl Mesh {
+    /// The uv sets that it offers to materials.
+    pub(super) fn uv(&self) -> UvSets<'_> {
+        if self.is_stand_in { UvSets::Natural } else { UvSets::Named(&self.uv_names) }
+    }
 }
 
 /// All meshes of a scene.
@@ -71,6 +82,11 @@ impl<'a> MeshTable<'a> {
         self.read.get(name)?.as_ref()
     }
 
+    /// The mesh of a name, if it has been read.
+    pub(super) fn known(&self, name: &str) -> Option<&Mesh> {
+        self.read.get(&self.meant(name))?.as_ref()
+    }
+
     /// The name of the mesh that a reference means, which may refer by uid.
     pub(super) fn meant(&self, reference: &str) -> String {
         self.names.meant(reference).to_owned()
@@ -111,8 +127,11 @@ impl<'a> MeshTable<'a> {
             (embedded.data.clone(), embedded.material_spans.clone(), node.span)
         } else {
             let path = node.node("external").map_or_else(|| node.opt_text("path"), |e| e.opt_text("path"))?;
-            let data = read_file(&path.value, path.span, context)?;
-            (data, vec![], path.span)
+            let stand_in = "a cube of a metre";
+            let Some(file) = context.read_or_stand_in(&path.value, path.span, stand_in) else {
+                return if context.placeholders { self.stand_in() } else { None };
+            };
+            (read_file(&file, path.span, context.sink)?, vec![], path.span)
         };
         report_notes(&data, place, context.sink);
         // A reader of files says it itself. Where something is wrong the triangles may be there, but could not be read.
@@ -129,7 +148,31 @@ impl<'a> MeshTable<'a> {
         let slot_numbers = data.material_numbers.clone();
         let triangles = to_triangles(data, scale, smooth, place, context.sink)?;
         let reach = triangles.positions().iter().flatten().fold(0.0_f32, |most, x| most.max(x.abs()));
-        Some(Mesh { id: self.add(triangles), slots, slot_numbers, uv_names, reach: reach.into() })
+        let id = self.add(triangles);
+        Some(Mesh { id, slots, slot_numbers, uv_names, reach: reach.into(), is_stand_in: false })
+    }
+
+    /// A cube round the origin, a metre wide whatever the scale of the mesh: files have all units.
+    fn stand_in(&mut self) -> Option<Mesh> {
+        let corner = |i: usize| [0, 1, 2].map(|axis| if i >> axis & 1 == 0 { -0.5 } else { 0.5 });
+        // Two triangles a side, counter-clockwise from outside.
+        let sides = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+        let buffers = MeshBuffers {
+            positions: (0..8).map(corner).collect(),
+            triangles: sides.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect(),
+            uv_sets: vec![(0..8).map(|i| [corner(i)[0] + 0.5, corner(i)[2] + 0.5]).collect()],
+            ..MeshBuffers::default()
+        };
+        // What was made here is sound.
+        let id = self.add(TriangleMesh::new(buffers).ok()?);
+        Some(Mesh {
+            id,
+            slots: vec![],
+            slot_numbers: vec![],
+            uv_names: vec![],
+            reach: 0.5,
+            is_stand_in: true,
+        })
     }
 
     /// Meshes that nothing places have no effect, whatever they hold.
@@ -182,12 +225,11 @@ fn names_of_all_sets(data: &MeshData) -> Vec<(String, u32)> {
     names
 }
 
-fn read_file(path: &str, span: Span, context: &mut Context) -> Option<MeshData> {
-    let file = context.read(path, span)?;
+fn read_file(file: &Resolved, span: Span, sink: &mut Sink) -> Option<MeshData> {
     match read_mesh(&file.path, &file.bytes) {
         Ok(data) => Some(data),
         Err(error) => {
-            context.sink.push(
+            sink.push(
                 Diagnostic::error(
                     codes::BAD_FILE,
                     span,

@@ -43,6 +43,8 @@ use meshes::MeshTable;
 /// What all parts of lowering share.
 pub(crate) struct Context<'a> {
     pub options: &'a LoadOptions<'a>,
+    /// Whether something stands in for textures and meshes whose files are missing.
+    pub placeholders: bool,
     /// Where files come from that only the development of the picture looks at.
     pub development: &'a dyn Resolver,
     pub sources: &'a mut SourceMap,
@@ -66,7 +68,20 @@ impl Context<'_> {
         self.or_report(found, path, span)
     }
 
-    /// The same for a file that decides only how the film is developed.
+    /// The same for a file that something can stand in for, in words: if that is asked for, its lack is no error.
+    fn read_or_stand_in(&mut self, path: &str, span: Span, stand_in: &str) -> Option<Resolved> {
+        if !self.placeholders || path.is_empty() {
+            return self.read(path, span);
+        }
+        let found = self.options.resolver.read(path, self.sources.name(span.source));
+        let missing = |error| {
+            let message = format!("cannot read {path}: {error}; {stand_in} stands in");
+            self.sink.push(Diagnostic::warning(codes::PLACEHOLDER, span, message));
+        };
+        found.map_err(missing).ok()
+    }
+
+    /// The same as [`read`](Self::read) for a file that decides only how the film is developed.
     fn read_for_development(&mut self, path: &str, span: Span) -> Option<Resolved> {
         if path.is_empty() {
             return None;

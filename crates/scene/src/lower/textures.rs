@@ -57,12 +57,14 @@ impl TextureTable {
         if let Some(file) = self.found.get(&named) {
             return file.clone();
         }
-        let (file, image) = match context.read(path, span) {
+        let stand_in = "a picture of magenta and black squares";
+        let (file, image) = match context.read_or_stand_in(path, span, stand_in) {
             Some(found) if self.images.contains_key(&found.path) => (found.path, None),
             Some(found) => {
                 let image = decode(&found.path, &found.bytes, span, context);
                 (found.path, Some(image))
             }
+            None if context.placeholders => (path.to_owned(), Some(squares())),
             None => (path.to_owned(), Some(grey())),
         };
         if let Some(image) = image {
@@ -123,4 +125,15 @@ fn drop_no_numbers(values: &mut [f32]) -> usize {
 
 fn grey() -> Image {
     Image { width: 1, height: 1, channels: 1, pixels: Pixels::U8(vec![128]), primaries: None }
+}
+
+/// What stands in for a picture that is missing: nobody paints anything so.
+fn squares() -> Image {
+    const SIDE: u32 = 64;
+    const SQUARE: u32 = 8;
+    let texel = |i: u32| {
+        if (i % SIDE / SQUARE + i / SIDE / SQUARE).is_multiple_of(2) { [255, 0, 255] } else { [0; 3] }
+    };
+    let texels = (0..SIDE * SIDE).flat_map(texel).collect();
+    Image { width: SIDE, height: SIDE, channels: 3, pixels: Pixels::U8(texels), primaries: None }
 }

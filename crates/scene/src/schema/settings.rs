@@ -194,6 +194,12 @@ pub static RENDERER_SETTINGS: Block = Block::new(
             "true",
             "Whether the picture darkens towards its corners, by the cos⁴ law. Needs the camera's consent, too.",
         ),
+        flag(
+            "placeholders",
+            "false",
+            "Whether a texture or a mesh whose file is missing is no error but a warning: magenta and black squares stand in for \
+             the texture, and a magenta cube of a metre for the mesh. A missing mesh of an `exit_portal` leaves that out.",
+        ),
         Field::new(
             "render_region",
             Kind::Block(&RENDER_REGION),

@@ -65,6 +65,57 @@ fn texels_that_are_no_numbers_are_told_and_dark() {
     assert_eq!(texture.rgb(indigo_math::Vec2::new(0.0, 0.0)), [0.0, 0.5, 0.0]);
 }
 
+/// What is found in a scene with an element that has placeholders for what is missing, and the scene.
+fn with_placeholders(line: &str) -> (Vec<String>, Option<indigo_scene::Scene>) {
+    let head = HEAD.replace("<renderer_settings>", "<renderer_settings><placeholders>true</placeholders>");
+    let l = loaded(&format!("{head}{line}\n{CAMERA}</scene>"));
+    let place = |d: &indigo_diag::Diagnostic| {
+        let p = l.sources.position(d.span.expect("a place"));
+        format!("{}:{}:{}", p.line, p.column, d.code)
+    };
+    (l.sink.diagnostics().iter().map(place).collect(), l.scene)
+}
+
+#[test]
+fn something_stands_in_for_files_that_are_missing_if_that_is_asked_for() {
+    let place = |line: &str, at: &str| format!("{LINE}:{}:W0326", line.find(at).expect("it is there") + 1);
+    let line = "<material><name>t</name><diffuse><albedo_texture><uv_set>any</uv_set><path>none.png</path><exponent>1</exponent></albedo_texture></diffuse></material><sphere><center>0 0 0</center><radius>1</radius><material_name>t</material_name></sphere>";
+    let (told, scene) = with_placeholders(line);
+    assert_eq!(told, [place(line, "none.png")]);
+    let texture = &scene.expect("a scene").textures[0];
+    // Squares of an eighth: texels of each, and of the next one.
+    let at =
+        |x: f64, y: f64| texture.rgb(indigo_math::Vec2::new(x as indigo_math::Real, y as indigo_math::Real));
+    assert_eq!([at(0.06, 0.94), at(0.19, 0.94)], [[1.0, 0.0, 1.0], [0.0; 3]]);
+
+    // Whatever its scale and its materials, a metre wide; the lamp shines beside the background.
+    let mesh = "<mesh><name>m</name><scale>0.001</scale><external><path>none.obj</path></external></mesh>";
+    let placed = "<pos>0 0 0</pos><scale>1</scale><mesh_name>m</mesh_name>";
+    let model =
+        format!("{mesh}<model>{placed}<materials><material_name>white</material_name></materials></model>");
+    let lamp = format!(
+        "{mesh}<meshlight>{placed}<spectrum><uniform><value>1</value></uniform></spectrum></meshlight>"
+    );
+    for (line, lights) in [(&model, 1), (&lamp, 2)] {
+        let (told, scene) = with_placeholders(line);
+        assert_eq!(told, [place(line, "none.obj")]);
+        let scene = scene.expect("a scene");
+        assert_eq!(scene.lights.len(), lights);
+        let size = scene.accel.object_bounds(0).size();
+        assert!(size.to_array().iter().all(|x| (x - 1.0).abs() < 1e-5), "{size:?}");
+    }
+    // No opening is a cube.
+    let portal = format!("{mesh}<exit_portal>{placed}</exit_portal>");
+    let (told, scene) = with_placeholders(&portal);
+    assert_eq!(told, [place(&portal, "none.obj")]);
+    assert!(scene.expect("a scene").lights.portals().is_none());
+    // What is there but broken is a fault.
+    let (told, _) = with_placeholders(
+        &mesh.replace("none", "broken").replace("</mesh>", &format!("</mesh><model>{placed}</model>")),
+    );
+    assert!(told.iter().all(|code| code.ends_with("E0303")) && told.len() == 1, "{told:?}");
+}
+
 #[test]
 fn a_texture_that_nothing_uses_is_not_even_looked_for() {
     let line = "<material><name>t</name><diffuse><albedo_texture><path>none.png</path></albedo_texture></diffuse></material>";
@@ -129,6 +180,28 @@ fn a_white_point_counts_unless_a_white_is_named() {
     assert_eq!(found(&impossible), [place(&impossible, "<chromaticity", "E0309")]);
     let negative = with(&point("-7", "0.3"));
     assert_eq!(found(&negative), [place(&negative, "-7", "E0203")]);
+}
+
+#[test]
+fn what_only_a_lens_makes_use_of_is_told_of_cameras_without_one() {
+    let with = |more: &str| CAMERA.replace("</camera>", &format!("{more}</camera>"));
+    let place = |camera: &str, at: &str, code: &str| {
+        format!("{LINE}:{}:{code}", camera.find(at).expect("the text is in the camera") + 1)
+    };
+    let kind = |name: &str| format!("<camera_type>{name}</camera_type>");
+    let shifted = "<lens_shift_up_distance>0.01</lens_shift_up_distance><autofocus/>";
+    assert_eq!(found(&with(&kind("orthographic"))), Vec::<String>::new());
+    assert_eq!(found(&with(&(kind("orthographic") + shifted))), Vec::<String>::new());
+    let obstacles = with(&(kind("orthographic") + "<obstacle_map>broken.png</obstacle_map>"));
+    assert!(found(&obstacles).contains(&place(&obstacles, "broken.png", "W0325")));
+    let sphere = with(&(kind("Spherical") + shifted));
+    let told = found(&sphere);
+    for (at, code) in [("Spherical", "W0304"), ("0.01<", "W0325")] {
+        assert!(told.contains(&place(&sphere, at, code)), "{told:?}");
+    }
+    assert_eq!(told.len(), 2, "{told:?}");
+    let wrong = with(&kind("fisheye"));
+    assert_eq!(found(&wrong), [place(&wrong, "fisheye", "E0202")]);
 }
 
 /// Where and with which code a camera with an aperture shape is refused.

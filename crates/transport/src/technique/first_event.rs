@@ -19,7 +19,7 @@ pub struct FirstEvent {
     pub albedo: SampledSpectrum,
     /// Unit shading normal on the side that is seen; none in a medium.
     pub normal: Option<Vec3>,
-    /// Depth along the viewing direction, metres.
+    /// Depth in the picture, metres: see [`Camera::depth`](indigo_camera::Camera::depth).
     pub depth_m: Real,
     /// Numbers of the object and its material; none in a medium.
     pub surface: Option<[u32; 2]>,
@@ -51,7 +51,6 @@ pub fn first_event(
         // Radiance that goes into a denser medium grows by the squared index: that is no reflectance.
         path.beta * next.weight * (vertex.compression(&world, next.wi) / ratio.mean())
     });
-    // The camera is the origin of render space.
-    let depth_m = vertex.point.p.dot(scene.camera.forwards());
+    let depth_m = scene.camera.depth(vertex.point.p);
     Some(FirstEvent { albedo, normal: vertex.normal(), depth_m, surface })
 }

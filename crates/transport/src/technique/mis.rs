@@ -75,15 +75,26 @@ pub(super) struct Step {
     /// Of the vertex that it leaves; 0 for the lens, which nothing finds.
     reach: LanePdf,
     is_connectable: bool,
+    /// Whether it is one of parallel rays, whose density over area does not fall with distance.
+    is_parallel: bool,
 }
 
 impl Step {
     /// From a point of the lens, by a direction of density `pdf` (1/sr). The lens cannot be met by
     /// chance, so no strategy ends before it. Every strategy draws the diffraction at the lens in the
-    /// same way; `ratio` is its density in each lane, over the hero's.
+    /// same way; `ratio` is its density in each lane, over the hero's. If the camera's rays are parallel, `pdf` is their
+    /// density over area (1/m²).
     #[inline]
-    pub fn from_camera(pdf: Real, ratio: LanePdf) -> Self {
-        Self { ratio, before: ratio, pdf, others: LanePdf::ZERO, reach: LanePdf::ZERO, is_connectable: true }
+    pub fn from_camera(pdf: Real, ratio: LanePdf, is_parallel: bool) -> Self {
+        Self {
+            ratio,
+            before: ratio,
+            pdf,
+            others: LanePdf::ZERO,
+            reach: LanePdf::ZERO,
+            is_connectable: true,
+            is_parallel,
+        }
     }
 
     /// From a lamp or the environment, whose first density is `first` and second `second`
@@ -98,6 +109,7 @@ impl Step {
             others: LanePdf::splat(m1(1.0 / first)),
             reach: LanePdf::splat(cos),
             is_connectable: true,
+            is_parallel: false,
         }
     }
 
@@ -105,6 +117,7 @@ impl Step {
     /// unscattered with the probabilities `free`.
     #[inline]
     pub fn arrive(&self, distance2: Real, reach: LanePdf, free: LanePdf) -> Prefix {
+        let distance2 = if self.is_parallel { 1.0 } else { distance2 };
         self.prefix(distance2, reach * free, self.reach * free)
     }
 
@@ -152,6 +165,7 @@ impl Prefix {
             others,
             reach,
             is_connectable,
+            is_parallel: false,
         }
     }
 

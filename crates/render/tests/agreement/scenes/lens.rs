@@ -2,7 +2,7 @@
 
 use super::super::common::scene_with;
 use super::super::common::shapes::{mesh_light, model};
-use super::super::common::text::{camera, diffuse, null, scene_file, uniform};
+use super::super::common::text::{background, camera, diffuse, null, scene_file, uniform};
 use super::lights::{MAP, PROFILE, picture, square_lamp};
 use super::{block, build, common, lamp, room, wall};
 use indigo_imaging::{LinearImage, Metadata, exr, png};
@@ -16,6 +16,26 @@ pub fn thin_lens_out_of_focus() -> Scene {
         .replace("<aperture_radius>1e-5</aperture_radius>", "<aperture_radius>0.4</aperture_radius>")
         .replace("<focus_distance>1</focus_distance>", "<focus_distance>2.5</focus_distance>");
     build(&[common(lens), room(["white"; 4]), block("grey"), lamp(0.3, 1e5)])
+}
+
+/// Parallel rays that meet lamps, the room, and its environment through it.
+pub fn orthographic_camera() -> Scene {
+    let parallel =
+        "<camera_type>orthographic</camera_type><lens_shift_up_distance>0.2</lens_shift_up_distance>";
+    let lens = camera([0.0, -3.6, 0.0], [0.0, 1.0, 0.0], 22.0, parallel);
+    let small = vec![
+        wall([0.0, -1.0, 0.0], -0.6, 0.1).text("small", "black"),
+        mesh_light("small", &uniform(2e4), [-0.4, 0.0, -0.35], 1.0, ""),
+    ];
+    let sky = vec![background(&uniform(1e3))];
+    build(&[common(lens), without_back(), block("grey"), lamp(0.3, 1e5), small, sky])
+}
+
+/// All directions, from amid the room; the lamp lies over the camera, where columns meet.
+pub fn spherical_camera() -> Scene {
+    let lens = camera([0.1, -0.4, 0.1], [0.3, 1.0, 0.0], 1.0, "<camera_type>spherical</camera_type>");
+    let sky = vec![background(&uniform(1e3))];
+    build(&[common(lens), room(["white"; 4]), block("grey"), lamp(0.3, 1e5), sky])
 }
 
 /// Three blades, whose picture of what is out of focus no mode may turn over or stretch.

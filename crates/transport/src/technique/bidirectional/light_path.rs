@@ -139,21 +139,23 @@ impl LightPath {
         }
         let Sample { world, camera, .. } = sample;
         let scene = world.scene;
-        let to_lens = camera.origin - light.vertex.point.p;
+        let origin = sample.origin_towards(light.vertex.point.p);
+        let to_lens = origin - light.vertex.point.p;
         let distance2 = to_lens.length2();
         if distance2 == 0.0 {
             return;
         }
-        let wi = to_lens / distance2.sqrt();
+        let distance = distance2.sqrt();
+        let wi = to_lens / distance;
         // Only what falls on the film is worth a ray.
-        let Some(film) = sample.on_film(-wi) else { return };
+        let Some(film) = sample.on_film(origin, -wi) else { return };
         let position = film.position;
         let scattered = light.vertex.eval(wi, Mode::Importance);
         if scattered.f_cos.is_black() {
             return;
         }
-        let Some(passage) = way(world, &light.vertex, wi, &Point::free(camera.origin)) else { return };
-        let pdf = scene.camera.pdf_direction(-wi);
+        let Some(passage) = way(world, &light.vertex, wi, &Point::free(origin)) else { return };
+        let pdf = scene.camera.pdf_direction(-wi, distance);
         let found = light.vertex.reach(wi) * passage.free * (pdf * self.film_density / distance2);
         let prefix = self.prefix_towards(i, wi);
         let others = prefix.others(found, scattered.pdf_rev);

@@ -49,11 +49,17 @@ struct Sample<'a> {
 }
 
 impl Sample<'_> {
-    /// Where light falls that comes from a unit direction to the sample's point of the lens, and is deflected there;
+    /// Where the camera's ray begins that sees a point: at the sample's point of the lens, if there is one.
+    #[inline]
+    fn origin_towards(&self, p: Vec3) -> Vec3 {
+        self.world.scene.camera.origin_towards(p, self.camera.origin)
+    }
+
+    /// Where light falls that comes from a unit direction to a point where rays begin, and is deflected there;
     /// `None` where that is beside the film.
     #[inline]
-    fn on_film(&self, from: Vec3) -> Option<FilmPosition> {
-        let film = self.world.scene.camera.film_position(self.camera.origin, from)?;
+    fn on_film(&self, origin: Vec3, from: Vec3) -> Option<FilmPosition> {
+        let film = self.world.scene.camera.film_position(origin, from)?;
         let position = film.position - self.camera.offset;
         let is_on = |x: Real| (0.0..=1.0).contains(&x);
         (is_on(position.x) && is_on(position.y)).then_some(FilmPosition { position, ..film })
@@ -119,8 +125,9 @@ fn trace_camera(
     let mut radiance = [SampledSpectrum::ZERO; 2];
     let kind = |events: u32| usize::from(events > DIRECT);
     let mut beta = SampledSpectrum::splat(camera.importance).times(camera.ratio);
-    let pdf = scene.camera.pdf_direction(camera.direction) * light_path.film_density;
-    let mut step = Step::from_camera(pdf, camera.ratio);
+    // At a distance of 1 a density over area is the same number as one over solid angle.
+    let pdf = scene.camera.pdf_direction(camera.direction, 1.0) * light_path.film_density;
+    let mut step = Step::from_camera(pdf, camera.ratio, scene.camera.is_parallel());
     let mut from = Receiver::all_round(camera.origin);
     let ray = Ray::new(camera.origin, camera.direction);
     let mut flight = Flight::new(ray.o, ray, scene.camera_media_along(&ray));

@@ -49,7 +49,7 @@ impl Seen {
     pub fn counted_pdf(&self, sample: &Sample) -> Real {
         let Sample { world, camera, .. } = sample;
         let (lens, film) = (&world.scene.camera, &world.scene.film.size);
-        let sharp = lens.pdf_direction(self.wi) * self.chance / self.pdf;
+        let sharp = lens.pdf_direction(self.wi, self.distance) * self.chance / self.pdf;
         let pixels = film.internal_width() as Real * film.internal_height() as Real;
         let offset_density = if camera.offset_disc <= sharp { Real::INFINITY } else { camera.offset_density };
         let spread = lens.blur(self.wi, self.distance).max(1.0 / pixels).recip().min(offset_density);
@@ -70,9 +70,16 @@ pub(super) fn join_source<R: Record>(
     if !events.holds(0) {
         return None;
     }
-    let view = scene.lights.source_seen_from(source, camera.origin)?;
-    let film = sample.on_film(view.wi)?;
-    let counted = Seen::of(source, &view, camera.origin).counted_pdf(sample);
+    let origin = match source.point() {
+        Some(p) => sample.origin_towards(p),
+        // The direction that was drawn is none of parallel rays.
+        None if scene.camera.is_parallel() => return None,
+        None => camera.origin,
+    };
+    let view = scene.lights.source_seen_from(source, origin)?;
+    let film = sample.on_film(origin, view.wi)?;
+    let seen = Seen::of(source, &view, origin);
+    let counted = seen.counted_pdf(sample);
     if counted == 0.0 && !R::LOOKS {
         return None;
     }
@@ -81,8 +88,8 @@ pub(super) fn join_source<R: Record>(
         return None;
     }
     let to = view.point.as_ref().map(Point::of_light);
-    let passage = way_from_lens(world, camera.origin, view.wi, to.as_ref())?;
-    let pdf = scene.camera.pdf_direction(view.wi);
+    let passage = way_from_lens(world, origin, view.wi, to.as_ref())?;
+    let pdf = scene.camera.pdf_direction(view.wi, seen.distance);
     let weight = Weight::straight(camera.ratio, passage.free * (pdf * film_density), counted);
     let arrived = light.times(camera.ratio) * passage.transmittance;
     let value = arrived * (film.importance * pdf / view.pdf);

@@ -8,6 +8,8 @@ use indigo_spectrum::{LANES, SampledSpectrum};
 struct Path {
     n: usize,
     is_distant: bool,
+    /// Whether the camera's rays are.
+    is_parallel: bool,
     /// Of the emission's point and direction, and of drawing the point for vertex 1 (1/m²); or of the emission's direction
     /// and place, and of drawing the direction (1/sr).
     first: Real,
@@ -42,6 +44,7 @@ impl Path {
         let mut path = Self {
             n,
             is_distant: rng.next_f64() < 0.5,
+            is_parallel: rng.next_f64() < 0.3,
             first: number(rng),
             second: number(rng),
             drawn: number(rng),
@@ -55,6 +58,8 @@ impl Path {
             free: (0..n).map(|_| lanes(rng)).collect(),
         };
         path.lens = path.lens.ratio_to_hero();
+        // A direction of the environment is never that of parallel rays.
+        path.is_parallel &= !(path.is_distant && n == 2);
         if path.is_distant {
             // What has no place has no distance, and no surface.
             path.distance2[0] = 1.0;
@@ -83,11 +88,16 @@ impl Path {
         }
     }
 
+    /// Density of the camera's direction (1/sr); that of parallel rays is one over area.
+    fn camera_pdf(&self) -> Real {
+        if self.is_parallel { self.camera * self.distance2[self.n - 2] } else { self.camera }
+    }
+
     fn backwards(&self, j: usize) -> LanePdf {
         if j == self.n - 1 {
             return self.lens;
         }
-        let density = if j == self.n - 2 { LanePdf::splat(self.camera) } else { self.back[j + 1] };
+        let density = if j == self.n - 2 { LanePdf::splat(self.camera_pdf()) } else { self.back[j + 1] };
         density * self.reach[j][1] * self.free[j] / self.distance2[j]
     }
 
@@ -146,7 +156,7 @@ impl Path {
 
     /// The camera's prefix at vertex `k` of at most n − 2.
     fn camera_prefix(&self, k: usize) -> Prefix {
-        let mut step = Step::from_camera(self.camera, self.lens);
+        let mut step = Step::from_camera(self.camera, self.lens, self.is_parallel);
         for j in (0..self.n - 1).rev() {
             let prefix = if self.is_distant && j == 0 {
                 step.arrive_at_environment(self.free[j])
@@ -177,7 +187,7 @@ impl Path {
         if s == 1 {
             let in_angle = self.drawn * self.distance2[0] / self.reach[0][1].hero();
             if self.n == 2 {
-                return Weight::straight(self.lens, self.free[0] * self.camera, in_angle);
+                return Weight::straight(self.lens, self.free[0] * self.camera_pdf(), in_angle);
             }
             let prefix = self.camera_prefix(1);
             let found = self.reach[1][0] * free * self.second;
@@ -186,7 +196,7 @@ impl Path {
             return Weight::drawn_light(prefix.ratio, met, others, self.first / self.drawn);
         }
         let light = self.light_prefix(s - 1);
-        let to_camera = if s == self.n - 1 { LanePdf::splat(self.camera) } else { self.back[s] };
+        let to_camera = if s == self.n - 1 { LanePdf::splat(self.camera_pdf()) } else { self.back[s] };
         let others_light = light.others(to_camera * self.reach[s - 1][1] * free, self.back[s - 1]);
         if s == self.n - 1 {
             return Weight::joint(light.ratio, others_light, self.lens, LanePdf::ZERO);
