@@ -21,9 +21,11 @@ pub fn run(arguments: &[String]) -> Outcome {
     }
 }
 
-/// On a display of its own, with the console that the window is compared with built beside it.
+/// On a display of its own, with the console that the window is compared with built beside it: by a benchmark of the console, so
+/// that both are of one build.
 fn window(rest: &[String]) -> Outcome {
-    process::run(&mut process::cargo(&["build", "--release", "--workspace", "--bin", "indigo_console"]))?;
+    let both = ["bench", "--workspace", "--no-run", "--bench", "window", "--bench", "two_machines"];
+    process::run(&mut process::cargo(&both))?;
     let mut bench = process::cargo(&["bench", "--workspace", "--bench", "window", "--"]);
     let _display = display::for_tests(bench.args(rest))?;
     process::run(&mut bench)

@@ -26,6 +26,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
+use std::time::Duration;
 
 /// What the window asks for.
 pub enum Command {
@@ -125,6 +126,9 @@ pub enum Update {
     Gone,
 }
 
+/// When the window is drawn after news. Without any delay egui draws it twice, for answers to what people do.
+const SOON: Duration = Duration::from_millis(1);
+
 /// Where the engine's news go.
 #[derive(Clone)]
 pub struct Outlet {
@@ -137,7 +141,7 @@ impl Outlet {
     pub fn send(&self, update: Update) {
         // Without a window nobody wants to know.
         drop(self.updates.send(update));
-        self.context.request_repaint();
+        self.context.request_repaint_after(SOON);
     }
 
     /// Tells how far a render is.
@@ -201,7 +205,8 @@ impl Engine {
         let developing = Arc::clone(&desk);
         let wake = context.clone();
         let named = |name: &str| std::thread::Builder::new().name(name.to_owned());
-        let developer = named("develop").spawn(move || developing.work(&|| wake.request_repaint()))?;
+        let developer =
+            named("develop").spawn(move || developing.work(&|| wake.request_repaint_after(SOON)))?;
         let worker = worker::Worker::new(orders, commands.clone(), outlet, Arc::clone(&desk));
         let worker = named("engine").spawn(move || worker.work())?;
         Ok(Self { commands, updates, desk, threads: vec![developer, worker] })

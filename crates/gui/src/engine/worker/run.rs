@@ -20,8 +20,8 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// How often the window is told how far it is. Each time it is drawn anew, which costs a machine without a graphics card
-/// some hundredths of a second.
-pub const BETWEEN_NEWS: Duration = Duration::from_millis(500);
+/// a tenth of a second of one core.
+pub const BETWEEN_NEWS: Duration = Duration::from_secs(1);
 /// How often the picture is renewed in the first moments; the time between two grows up to the setting `display_period`.
 const FIRST_PICTURE: Duration = Duration::from_secs(1);
 /// Renewing the picture may take this part of the time at most, so that rendering takes no more than some per cent longer.
