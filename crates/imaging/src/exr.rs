@@ -93,9 +93,9 @@ fn attributes(metadata: &Metadata, white_luminance: Option<f32>) -> Result<Layer
 /// The attributes that the standard has for cameras (OpenEXR, `ImfStandardAttributes.h`).
 fn add_camera(attributes: &mut LayerAttributes, camera: &CameraFacts) {
     let single = |v: f64| v as f32;
-    let matrix = |m: Matrix| Some(std::array::from_fn(|i| m[i / 4][i % 4] as f32));
-    attributes.world_to_camera = matrix(camera.world_to_camera());
-    attributes.world_to_normalized_device = camera.world_to_ndc().and_then(matrix);
+    let flat = |m: Matrix| std::array::from_fn(|i| m[i / 4][i % 4] as f32);
+    attributes.world_to_camera = Some(flat(camera.world_to_camera()));
+    attributes.world_to_normalized_device = camera.world_to_ndc().map(flat);
     attributes.exposure = Some(single(camera.exposure_duration));
     attributes.aperture = camera.f_number().map(single);
     attributes.focus = camera.focus_distance.map(single);
