@@ -42,7 +42,15 @@ pub fn make_key(path: &Path, console: &mut Console) -> u8 {
 /// A path as it can be copied into a shell.
 fn in_shell(path: &Path) -> String {
     let path = path.display().to_string();
-    if path.contains([' ', '&', '(', ')', ';']) { format!("\"{path}\"") } else { path }
+    let is_plain = |c: char| c.is_alphanumeric() || "/\\:._-+,@".contains(c);
+    match () {
+        () if cfg!(windows) && path.contains(|c| !is_plain(c)) => format!("\"{path}\""),
+        // Within such quotes nothing has a meaning but their end.
+        () if cfg!(unix) && path.contains(|c| !is_plain(c) || c == '\\') => {
+            format!("'{}'", path.replace('\'', r"'\''"))
+        }
+        () => path,
+    }
 }
 
 /// Adds up what slaves render until told to stop; the exit status. See [`render`](crate::render::render).
@@ -91,11 +99,7 @@ fn finish(mut render: MasterRender, reason: &HaltReason, elapsed: Duration, cons
     }
     let gathered = render.gather(reason, console);
     console.last_progress(&gathered.progress);
-    if gathered.lacks_samples {
-        console.warn(
-            "slaves that are gone had the last of the samples: go on with the film to have them all (-r)",
-        );
-    } else {
+    if !gathered.lacks_samples {
         // The last of the slaves' samples are counted, and the time that they took to come is not.
         say_why(reason, &Progress { elapsed, ..gathered.progress }, console);
     }

@@ -135,7 +135,7 @@ impl MasterFilm {
         for (mine, layer) in tally.layers.iter_mut().zip(&state.layers) {
             mine.add(&layer.totals);
         }
-        tally.refused += state.refused;
+        tally.refused = tally.refused.saturating_add(state.refused);
         Ok(())
     }
 

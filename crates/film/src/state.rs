@@ -64,7 +64,7 @@ impl FilmState {
                 *a += b;
             }
         }
-        self.refused += other.refused;
+        self.refused = self.refused.saturating_add(other.refused);
         Ok(())
     }
 

@@ -4,7 +4,6 @@ use crate::messages::Messages;
 use crate::paths;
 use crate::status::FAILED;
 use std::fs::{File, TryLockError};
-use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::path::{Path, PathBuf};
 
 /// Keeps other renders of this user on this machine from a name, as long as it lives: by a lock, which ends with the
@@ -14,18 +13,18 @@ pub struct Claim {
 }
 
 impl Claim {
-    /// Claims the name of a picture.
+    /// Claims the name of a film, which stands for all files of a render: pictures that differ in it only share the film.
     ///
     /// # Errors
     /// The exit status where another render has it; that was told.
-    pub fn of(picture: &Path, messages: &mut dyn Messages) -> Result<Self, u8> {
+    pub fn of(film: &Path, messages: &mut dyn Messages) -> Result<Self, u8> {
         // Where there can be no lock, nothing is known of others.
-        let Ok(file) = open(picture) else { return Ok(Self { _lock: None }) };
+        let Ok(file) = open(film) else { return Ok(Self { _lock: None }) };
         match file.try_lock() {
             Err(TryLockError::WouldBlock) => {
                 messages.error(&format!(
                     "another render writes {}: give this one another name (-o)",
-                    picture.display()
+                    film.display()
                 ));
                 Err(FAILED)
             }
@@ -34,18 +33,21 @@ impl Claim {
     }
 }
 
-/// The file whose lock stands for a picture. It stays: whoever removed it could take away another's.
-fn open(picture: &Path) -> std::io::Result<File> {
-    let mut hasher = DefaultHasher::new();
-    place(picture)?.hash(&mut hasher);
+/// The file whose lock stands for a film. It stays: whoever removed it could take away another's.
+fn open(film: &Path) -> std::io::Result<File> {
+    let place = place(film)?;
+    // FNV-1a, of 64 bits: the same in all builds. Names that meet would keep each other out, and do no other harm.
+    let hash = place.as_os_str().as_encoded_bytes().iter().fold(0xcbf2_9ce4_8422_2325, |hash: u64, byte| {
+        (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
+    });
     let folder = paths::claims();
     std::fs::create_dir_all(&folder)?;
-    let name = format!("{:016x}", hasher.finish());
+    let name = format!("{hash:016x}");
     File::options().create(true).truncate(false).write(true).open(folder.join(name))
 }
 
 /// The same for all names of a file that may not be there yet.
-fn place(picture: &Path) -> std::io::Result<PathBuf> {
-    let above = picture.parent().filter(|above| !above.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    Ok(above.canonicalize()?.join(picture.file_name().unwrap_or_default()))
+fn place(file: &Path) -> std::io::Result<PathBuf> {
+    let above = file.parent().filter(|above| !above.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    Ok(above.canonicalize()?.join(file.file_name().unwrap_or_default()))
 }

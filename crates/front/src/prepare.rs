@@ -92,7 +92,7 @@ pub fn prepare(
         messages.error(&error.to_string());
         return Err(FAILED);
     }
-    let claim = Claim::of(&job.paths.png, messages)?;
+    let claim = Claim::of(&job.paths.igi(), messages)?;
     Ok(Prepared { scene, options, job, _picture: picture, _claim: claim })
 }
 

@@ -190,7 +190,6 @@ texts! {
     SLAVE_AT_WORK = "This machine renders for a master, which has the picture.";
     NO_PAUSE_OF_MANY = "Slaves cannot be paused: stop the render, and continue it later";
     NO_ERROR_OF_MANY = "the relative error is not estimated when slaves render, so this halting condition has no effect";
-    LOST_LAST_SAMPLES = "slaves that are gone had the last of the samples: continue with the film to have them all";
     REGION_OF_MANY = "slaves render what the scene file says, not a region drawn here: render the whole picture, or put render_region into the scene";
     NO_SLAVES = "No slaves have joined yet.";
     SLAVE_MACHINE = "Machine";

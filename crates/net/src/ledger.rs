@@ -8,6 +8,7 @@
 use indigo_film::{
     FilmError, FilmRecord, FilmSize, FilmState, LayerKind, Mismatch, Run, SavedFilm, Share, Totals, is_count,
 };
+use std::collections::HashMap;
 
 /// The longest time of rendering of an upload, in seconds: a year.
 const LONGEST: f64 = 365.0 * 86_400.0;
@@ -20,6 +21,8 @@ pub struct Ledger {
     durable: FilmRecord,
     /// How many copies of the film were taken to be saved.
     generation: u64,
+    /// Where each seed's last upload ended, and which generation it went to.
+    last: HashMap<u64, (u64, u64)>,
 }
 
 /// What became of an upload.
@@ -29,7 +32,7 @@ pub struct Receipt {
     pub merged_end: u64,
     /// The same of the film on the disk.
     pub durable_end: u64,
-    /// Uploads of one generation are saved together. That of a repetition is not known: a save may have begun between.
+    /// Uploads of one generation are saved together. That of a repetition is known if it came last.
     pub generation: Option<u64>,
     /// Whether it was there already.
     pub is_repeated: bool,
@@ -76,7 +79,7 @@ impl Ledger {
     /// A film of another program cannot be added to.
     pub fn new(film: SavedFilm) -> Result<Self, FilmError> {
         let durable = film.record.clone().ok_or(FilmError::Foreign)?;
-        Ok(Self { sum: film, durable, generation: 0 })
+        Ok(Self { sum: film, durable, generation: 0, last: HashMap::new() })
     }
 
     /// The record of the film as it stands.
@@ -90,6 +93,11 @@ impl Ledger {
         (self.record().first_fresh_unit(seed), self.durable.first_fresh_unit(seed))
     }
 
+    /// The generation of the upload of a seed that ended there, if it is the last.
+    pub fn generation_of(&self, seed: u64, end: u64) -> Option<u64> {
+        self.last.get(&seed).filter(|last| last.0 == end).map(|last| last.1)
+    }
+
     /// The film's resolution.
     pub fn size(&self) -> FilmSize {
         self.sum.film.size
@@ -98,11 +106,6 @@ impl Ledger {
     /// The film's sums.
     pub fn sums(&self) -> &FilmState {
         &self.sum.film
-    }
-
-    /// Samples per output pixel.
-    pub fn samples_per_pixel(&self) -> f64 {
-        self.record().samples as f64 / self.sum.film.size.pixels() as f64
     }
 
     /// Adds a film to the sum, unless it is there already. Nothing changes where it is refused.
@@ -117,19 +120,18 @@ impl Ledger {
         };
         let (merged_end, durable_end) = self.ends(seed);
         if run.end <= merged_end {
-            return Ok(self.receipt(merged_end, durable_end, true, 0));
+            let generation = self.generation_of(seed, run.end);
+            return Ok(Receipt { merged_end, durable_end, generation, is_repeated: true, missing: 0 });
         }
         if run.first < merged_end {
             return Err(Refusal::Overlap { seed, first: run.first, last: merged_end - 1 });
         }
         check_counts(film, record)?;
         film.add_to(&mut self.sum).map_err(Refusal::Mismatch)?;
-        Ok(self.receipt(run.end, durable_end, false, run.first - merged_end))
-    }
-
-    fn receipt(&self, merged_end: u64, durable_end: u64, is_repeated: bool, missing: u64) -> Receipt {
-        let generation = (!is_repeated).then_some(self.generation);
-        Receipt { merged_end, durable_end, generation, is_repeated, missing }
+        self.last.insert(seed, (run.end, self.generation));
+        let generation = Some(self.generation);
+        let missing = run.first - merged_end;
+        Ok(Receipt { merged_end: run.end, durable_end, generation, is_repeated: false, missing })
     }
 
     /// A copy of the film, to be saved: what is added from now on belongs to the next one.

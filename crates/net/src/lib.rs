@@ -12,7 +12,7 @@
 //! | `discovery` | masters in the local network |
 //! | [`key`], `tls` | who may take part |
 //! | `page` | the status page |
-//! | [`limits`] | what peers may do at most |
+//! | [`limits`], `plain` | what peers may do at most, and how their texts are shown |
 //! | [`master`], [`slave`] | the two programs, on threads of their own |
 //! | [`event`] | what they tell whoever runs them |
 //!
@@ -30,6 +30,7 @@ pub mod limits;
 pub mod master;
 pub mod outbox;
 mod page;
+mod plain;
 pub mod proto;
 pub mod slave;
 #[cfg(test)]

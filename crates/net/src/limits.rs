@@ -3,12 +3,12 @@
 use std::time::Duration;
 
 /// The protocol's number: peers of another do not understand each other.
-pub const PROTOCOL: u32 = 2;
+pub const PROTOCOL: u32 = 3;
 /// The port of the manual.
 pub const PORT: u16 = 7777;
 
 /// The most bytes of a piece of a scene or a parcel. Large enough that its overhead is lost in it, small enough that it comes
-/// within [`SILENCE`] at a thousand bytes a second, and that reports need not wait long behind it.
+/// within [`SILENCE`] at 1100 bytes a second, and that reports need not wait long behind it.
 pub const PIECE: usize = 32 << 10;
 /// The most bytes of a message: a piece, or a reply with a settings file, and something for the numbers round them.
 pub const MESSAGE: usize = 1 << 20;
@@ -36,6 +36,10 @@ pub const PACK: u64 = 4 << 30;
 
 /// A peer that says nothing for so long is taken for gone.
 pub const SILENCE: Duration = Duration::from_secs(30);
+/// A slave whose connection broke so short a time ago is still expected back: it tries again after one second and three.
+pub const RETURN: Duration = Duration::from_secs(5);
+/// The longest text of a peer's that is shown or kept, in characters.
+pub const TEXT: usize = 300;
 /// How often a peer is asked whether it is still there: several times before it is taken for gone.
 pub const KEEP_ALIVE: Duration = Duration::from_secs(8);
 /// How long a connection may take to be made, with all proofs.

@@ -7,8 +7,9 @@ use crate::ledger::run_of;
 use indigo_film::SavedFilm;
 use std::collections::VecDeque;
 
-/// The most films that are kept. Only a master that cannot save its film for a while lets them become more; then the
-/// oldest two become one, which in the end costs at most what the master loses as well.
+/// The most films that are kept. Only a master that cannot save its film for a while lets them become more; then two
+/// become one, the oldest that can, which in the end costs at most what the master loses as well. Where the master refused
+/// what was between, two cannot: of such gaps there are few, as only what is damaged is refused.
 const MOST_KEPT: usize = 4;
 
 /// Films on their way.
@@ -86,15 +87,34 @@ impl Outbox {
             }
             _ => self.kept.push_back(new),
         }
-        if self.kept.len() > MOST_KEPT
-            && let Some(mut oldest) = self.kept.pop_front()
-            && let Some(next) = self.kept.pop_front()
-        {
-            let apart = joined(&mut oldest.film, next.film);
-            if let Some(film) = apart {
-                self.kept.push_front(Kept { film, generation: next.generation });
+        if self.kept.len() > MOST_KEPT {
+            self.join_two();
+        }
+    }
+
+    /// Joins the oldest two films that can be. Of a save that is under way no two may become one of which it has the first
+    /// alone; but before a film of a later generation that save has ended, or another would not have begun.
+    fn join_two(&mut self) {
+        let newest = self.kept.back().and_then(|newest| newest.generation);
+        for i in 1..self.kept.len().saturating_sub(1) {
+            let generation = self.kept.get(i).and_then(|kept| kept.generation);
+            if let (Some(generation), Some(newest)) = (generation, newest)
+                && generation >= newest
+            {
+                continue;
             }
-            self.kept.push_front(Kept { generation: next.generation, ..oldest });
+            let Some(Kept { film, generation }) = self.kept.remove(i) else { return };
+            let apart = match self.kept.get_mut(i - 1) {
+                Some(older) => joined(&mut older.film, film).or_else(|| {
+                    older.generation = generation;
+                    None
+                }),
+                None => Some(film),
+            };
+            match apart {
+                Some(film) => self.kept.insert(i, Kept { film, generation }),
+                None => return,
+            }
         }
     }
 
@@ -106,8 +126,9 @@ impl Outbox {
     }
 
     /// The connection is there again, to the same master or another that goes on with its film: sorts out what it has.
-    /// Returns the samples that are lost, since the master has a part of the film that they are in.
-    pub fn rejoined(&mut self, merged_end: u64, durable_end: u64) -> u64 {
+    /// What ends at `merged_end` is of that generation, if it is known. Returns the samples that are lost, since the master has
+    /// a part of the film that they are in.
+    pub fn rejoined(&mut self, merged_end: u64, durable_end: u64, generation: Option<u64>) -> u64 {
         self.saved(durable_end);
         let mut lost = 0;
         let mut waiting = VecDeque::new();
@@ -116,7 +137,8 @@ impl Outbox {
         let sent = std::mem::take(&mut self.waiting).into_iter().map(|film| Kept { film, generation: None });
         for held in held.into_iter().chain(sent) {
             if end(&held.film) <= merged_end {
-                kept.push_back(held);
+                let known = held.generation.or(generation.filter(|_| end(&held.film) == merged_end));
+                kept.push_back(Kept { generation: known, ..held });
             } else if first(&held.film) >= merged_end {
                 waiting.push_back(held.film);
             } else {

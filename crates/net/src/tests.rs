@@ -3,20 +3,21 @@
 use crate::event::{Event, Sink};
 use crate::key::Key;
 use crate::limits::{MESSAGE, PROTOCOL};
-use crate::master::{Master, Override, SceneParcel, Setup};
+use crate::master::{Master, Override, SceneParcel, Setup, Unsent};
 use crate::proto::farm_client::FarmClient;
 use crate::proto::upload_part::Part;
 use crate::proto::{
     JoinReply, JoinRequest, ReportRequest, SceneRequest, UploadPart, UploadReply, UploadStart,
 };
-use crate::slave::Connector;
-use crate::slave::calls::is_refused;
+use crate::slave::calls::{Outcome, is_refused};
+use crate::slave::visit::Life;
+use crate::slave::{Connector, Loader, Options, SceneFiles};
 use bytes::Bytes;
 use indigo_film::igi::write_parcel;
 use indigo_film::{FilmRecord, FilmSize, FilmState, LayerKind, Run, SavedFilm};
-use indigo_scene::Identity;
+use indigo_scene::{Identity, Scene};
 use std::io::{Read as _, Write as _};
-use std::net::TcpStream;
+use std::net::{SocketAddr, TcpStream};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 use tokio::runtime::Runtime;
@@ -59,6 +60,11 @@ struct Bench {
 
 impl Bench {
     fn new(key: Option<Key>) -> Self {
+        Self::running(key, PROGRAM)
+    }
+
+    /// Another program's master.
+    fn running(key: Option<Key>, program: &str) -> Self {
         let events: Arc<Mutex<Vec<Event>>> = Arc::default();
         let told = Arc::clone(&events);
         let sink: Sink =
@@ -74,7 +80,7 @@ impl Bench {
         let setup = Setup {
             scene,
             film: film(0, 0),
-            program: PROGRAM.to_owned(),
+            program: program.to_owned(),
             key: key.clone(),
             own_seed: Some(OWN_SEED),
             port: 0,
@@ -179,7 +185,7 @@ fn a_slave_gets_the_scene_and_its_work_counts_once() {
     assert_eq!((again.merged_end, again.durable_end), (6, 6));
     let status = bench.master.status();
     assert_eq!((status.samples, status.present, status.slaves.len()), (6, 1, 1));
-    assert_eq!((status.slaves[0].samples, status.slaves[0].uploads), (6, 3));
+    assert_eq!((status.slaves[0].samples, status.slaves[0].uploads), (6, 2), "what came again is not added");
 }
 
 /// What slaves have still to send is counted once: as waiting, or in the film.
@@ -194,13 +200,14 @@ fn what_waits_is_counted_until_it_is_in_the_film() {
     assert_eq!(waits(&bench), (0, 7));
     bench.send(&mut client, parcel(&film(0, 5))).unwrap();
     assert_eq!(waits(&bench), (5, 2));
+    // Of a slave that has not heard yet that five of its seven have come.
+    bench.runtime.block_on(client.report(report.clone())).unwrap();
+    assert_eq!(waits(&bench), (5, 2));
     // More than it has told of.
     bench.send(&mut client, parcel(&film(5, 9))).unwrap();
     assert_eq!(waits(&bench), (9, 0));
-    bench
-        .runtime
-        .block_on(client.report(ReportRequest { waiting_samples: u64::MAX, ..report.clone() }))
-        .unwrap();
+    let report = ReportRequest { waiting_samples: u64::MAX, merged_end: 9, ..report };
+    bench.runtime.block_on(client.report(report.clone())).unwrap();
     assert_eq!(waits(&bench), (9, u64::MAX));
     let _again = bench.join();
     assert_eq!(waits(&bench), (9, 0), "what it has told of may have come");
@@ -451,4 +458,88 @@ fn who_is_silent_leaves_the_status_page_to_others() {
         assert_eq!(stream.read(&mut [0; 1]).ok(), Some(0), "closed by the master");
     }
     bench.join();
+}
+
+/// What it has told of is missing at the end, and a moment is left for it to come back.
+#[test]
+fn a_slave_whose_connection_breaks_at_the_end_is_waited_for_and_missed() {
+    let bench = Bench::new(None);
+    let (mut client, _) = bench.join();
+    let slave = Bytes::copy_from_slice(&SLAVE);
+    let rendering = crate::proto::report_request::State::Rendering.into();
+    let report = ReportRequest { slave, state: rendering, waiting_samples: 7, ..ReportRequest::default() };
+    bench.runtime.block_on(client.report(report)).unwrap();
+    bench.master.begin_end();
+    assert_eq!(bench.master.unsent(), Unsent { here: 1, gone: 0, samples: 7 });
+    drop(client);
+    bench.runtime.block_on(async { tokio::time::sleep(Duration::from_millis(100)).await });
+    bench.wait_for("the loss", |event| matches!(event, Event::Lost { .. }));
+    assert!(!bench.master.has_all(), "it may be back in a second");
+    assert_eq!(bench.master.unsent(), Unsent { here: 0, gone: 1, samples: 7 });
+    let (mut client, _) = bench.join();
+    bench.send(&mut client, parcel(&film(0, 7))).unwrap();
+    assert_eq!(bench.master.unsent().samples, 0);
+}
+
+/// A parcel may hold texts of whatever length, with commands for terminals in them.
+#[test]
+fn texts_of_peers_are_cut_and_cleaned() {
+    let bench = Bench::new(None);
+    let is_plain = |text: &str| text.chars().count() < 400 && !text.chars().any(char::is_control);
+    let program = format!("\x1b[2J{}", "x".repeat(1000));
+    let status = bench.join_as(&mut bench.connect(), JoinRequest { program, ..request() }).unwrap_err();
+    assert!(is_plain(status.message()), "{:?}", status.message());
+    let (mut client, _) = bench.join();
+    let mut odd = film(0, 5);
+    let setting = ("\x1b]0;mine\x07".to_owned(), "y".repeat(100_000));
+    odd.record.as_mut().unwrap().settings.push(setting);
+    let status = bench.send(&mut client, parcel(&odd)).unwrap_err();
+    assert!(status.message().contains("mine") && is_plain(status.message()), "{:?}", status.message());
+    let seen = bench.master.status().slaves[0].last_error.clone().unwrap();
+    assert!(seen.contains("mine") && is_plain(&seen), "{seen:?}");
+    let told = bench.events.lock().unwrap();
+    let reasons: Vec<&String> = told
+        .iter()
+        .filter_map(|event| if let Event::Refused { reason, .. } = event { Some(reason) } else { None })
+        .collect();
+    assert!(!reasons.is_empty() && reasons.iter().all(|reason| is_plain(reason)), "{reasons:?}");
+}
+
+/// No scene is loaded here.
+struct NoScenes;
+
+impl Loader for NoScenes {
+    fn load(&self, _: &SceneFiles) -> Result<Scene, String> {
+        Err("no scenes".to_owned())
+    }
+}
+
+/// Of several masters that were found, the first wants nothing of this slave.
+#[test]
+fn who_is_refused_goes_on_to_the_next_master() {
+    let others = Bench::running(None, "Indigo of tomorrow");
+    let ours = Bench::new(None);
+    let options = Options {
+        master: None,
+        key: None,
+        seed: Some(SEED),
+        name: "box".to_owned(),
+        threads: 1,
+        program: PROGRAM.to_owned(),
+        cache: std::env::temp_dir(),
+    };
+    let (_stop, stopped) = tokio::sync::watch::channel(false);
+    let mut life = Life::new(options, Arc::new(NoScenes), Arc::new(|_| {}), stopped).unwrap();
+    let places = [&others, &ours].map(|bench| bench.master.address());
+    let joined = |life: &mut Life, places: &[SocketAddr]| {
+        ours.runtime.block_on(life.join_one(places.to_vec())).map(|(_, _, place)| place)
+    };
+    assert!(matches!(joined(&mut life, &places[..1]), Err(Outcome::Refused(_))));
+    assert_eq!(joined(&mut life, &places).ok(), Some(Some(places[1])));
+    // One that let it in, and had a scene that could not be loaded.
+    life.turn_down(places[1]);
+    let twins = Bench::new(None);
+    let twin = twins.master.address();
+    assert_eq!(joined(&mut life, &[places[1], twin]).ok(), Some(Some(twin)));
+    assert_eq!(joined(&mut life, &places).ok(), Some(Some(places[1])), "better than none");
 }

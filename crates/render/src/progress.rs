@@ -32,9 +32,16 @@ pub(crate) struct RateMeter {
 
 impl RateMeter {
     const WINDOW: Duration = Duration::from_secs(5);
+    /// Points are no closer than this, so that the window holds a few hundred, however often and for how long a session is
+    /// asked whose clock stands still.
+    const GAP: Duration = Duration::from_millis(10);
 
     /// Takes a reading of a counter and gives its rate per second.
     pub(crate) fn update(&mut self, at: Duration, count: u64) -> f64 {
+        let n = self.points.len();
+        if n >= 2 && self.points[n - 1].0.saturating_sub(self.points[n - 2].0) < Self::GAP {
+            self.points.pop_back();
+        }
         self.points.push_back((at, count));
         while self.points.len() > 2 && at.saturating_sub(self.points[1].0) >= Self::WINDOW {
             self.points.pop_front();
@@ -54,6 +61,23 @@ impl RateMeter {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A session that rests is asked on and on.
+    #[test]
+    fn readings_at_one_time_take_no_memory() {
+        let mut meter = RateMeter::default();
+        meter.update(Duration::from_secs(9), 0);
+        meter.update(Duration::from_secs(10), 500);
+        // Its clock is not quite still.
+        let at = |n: u64| Duration::from_secs(10) + Duration::from_nanos(n % 1000);
+        let rates: Vec<f64> = (0..100_000).map(|n| meter.update(at(n), 500)).collect();
+        assert!(meter.points.len() < 10, "{}", meter.points.len());
+        assert!(rates.iter().all(|rate| (rate - 500.0).abs() < 0.01), "the same as before");
+        for ms in 0..100_000 {
+            meter.update(Duration::from_secs(11) + Duration::from_millis(ms), ms);
+        }
+        assert!(meter.points.len() <= 502, "{}", meter.points.len());
+    }
 
     #[test]
     fn the_rate_follows_the_last_seconds() {

@@ -29,7 +29,7 @@ impl Log {
     }
 }
 
-fn number(line: &str, name: &str) -> u64 {
+pub fn number(line: &str, name: &str) -> u64 {
     let value = line.split(&format!("\"{name}\":")).nth(1).unwrap_or_else(|| panic!("no {name}: {line}"));
     let digits: String = value.trim_start_matches('"').chars().take_while(char::is_ascii_digit).collect();
     digits.parse().unwrap_or_else(|_| panic!("{name} is no number: {line}"))

@@ -6,6 +6,7 @@ mod workbench;
 
 mod accounts;
 mod agreement;
+mod ends;
 mod farm;
 #[cfg(target_os = "linux")]
 mod namespace;

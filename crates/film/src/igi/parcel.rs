@@ -55,7 +55,8 @@ impl<'a> Parcel<'a> {
                 }
             }
         }
-        film.refused += self.content.refused;
+        // A peer's number may be any.
+        film.refused = film.refused.saturating_add(self.content.refused);
         Ok(())
     }
 }

@@ -4,8 +4,9 @@ use crate::flags::Arguments;
 use crate::messages::Messages;
 use crate::status::{BAD_INPUT, FAILED};
 use indigo_net::key::Key;
+use indigo_render::atomic::write_atomically;
 use indigo_render::disk::read_limited;
-use std::fs::OpenOptions;
+use std::fs::{File, OpenOptions};
 use std::io::{ErrorKind, Write as _};
 use std::path::Path;
 
@@ -18,15 +19,7 @@ const KEY: &str = "INDIGO_KEY";
 /// Why there is none, in words.
 pub fn make_key(path: &Path) -> Result<(), String> {
     let key = Key::random().map_err(|error| error.to_string())?;
-    let mut options = OpenOptions::new();
-    // Never in the place of a key that machines share already.
-    options.write(true).create_new(true);
-    #[cfg(unix)]
-    std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
-    let written = options.open(path).and_then(|mut file| {
-        writeln!(file, "{}", key.text())?;
-        file.sync_all()
-    });
+    let written = write_key(path, &key);
     let path = path.display();
     written.map_err(|error| match error.kind() {
         ErrorKind::AlreadyExists => {
@@ -34,6 +27,31 @@ pub fn make_key(path: &Path) -> Result<(), String> {
         }
         _ => format!("cannot write {path}: {error}"),
     })
+}
+
+/// All of it or nothing, and never in the place of a key that machines share already.
+fn write_key(path: &Path, key: &Key) -> std::io::Result<()> {
+    // Who takes the name first has it.
+    OpenOptions::new().write(true).create_new(true).open(path)?;
+    let written = write_atomically(path, |file| {
+        for_us_alone(file.get_ref())?;
+        writeln!(file, "{}", key.text())
+    });
+    written.inspect_err(|_| {
+        // Nothing is in it; where it stays somebody has to remove it.
+        drop(std::fs::remove_file(path));
+    })
+}
+
+/// Nobody else may read a file.
+#[cfg(unix)]
+fn for_us_alone(file: &File) -> std::io::Result<()> {
+    file.set_permissions(std::os::unix::fs::PermissionsExt::from_mode(0o600))
+}
+
+#[cfg(not(unix))]
+fn for_us_alone(_file: &File) -> std::io::Result<()> {
+    Ok(())
 }
 
 /// The shared key, if there is one.

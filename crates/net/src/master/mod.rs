@@ -1,12 +1,13 @@
 //! The master: holds the film, hands out the scene, and adds what slaves send.
 
 mod listen;
+mod refusals;
 mod rooms;
 mod roster;
 mod service;
 mod status;
 
-pub use roster::Presence;
+pub use roster::{Presence, Unsent};
 pub use status::{OwnStatus, SlaveStatus, Status};
 
 use crate::discovery::Announcement;
@@ -15,13 +16,15 @@ use crate::key::Key;
 use crate::ledger::{Ledger, Receipt, Refusal};
 use crate::limits::{CALLS, KEEP_ALIVE, MESSAGE, PIECE, SILENCE, UPLOADS, parcel_bytes};
 use crate::page::{self, View};
+use crate::plain::plain;
 use crate::proto::farm_server::FarmServer;
 use crate::{NetError, tls};
 use bytes::Bytes;
 use indigo_film::{FilmRecord, FilmState, MasterFilm, SavedFilm};
 use indigo_scene::{Identity, Scene};
+use refusals::Refusals;
 use rooms::Rooms;
-use roster::{Refusals, Roster};
+use roster::Roster;
 use std::net::{Ipv4Addr, Ipv6Addr, SocketAddr};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -98,8 +101,8 @@ struct Shared {
     scene: SceneParcel,
     pack_hash: [u8; 32],
     program: String,
+    /// Whoever locks others besides locks this one first: samples move between them.
     ledger: Mutex<Ledger>,
-    /// Slaves and refusals.
     roster: Mutex<Roster>,
     refusals: Mutex<Refusals>,
     /// Bytes of the largest parcel that can be one.
@@ -133,15 +136,13 @@ impl Shared {
     fn refused(&self, peer: SocketAddr, reason: &str) {
         let told = lock(&self.refusals).add(peer.ip(), Instant::now());
         if let Some(more) = told {
-            self.tell(Event::Refused { peer, reason: reason.to_owned(), more });
+            self.tell(Event::Refused { peer, reason: plain(reason), more });
         }
     }
-}
 
-impl Shared {
     /// A connection has ended: whoever called by it and has not said good-bye is gone, or will call again.
     fn disconnected(&self, peer: SocketAddr) {
-        let lost = self.roster().disconnected(peer);
+        let lost = self.roster().disconnected(peer, Instant::now());
         if let Some(name) = lost {
             self.tell(Event::Lost { slave: name, peer });
         }
@@ -240,7 +241,15 @@ impl Master {
     /// # Errors
     /// Where it does not belong to the film.
     pub fn add(&self, seed: u64, film: &SavedFilm) -> Result<Receipt, Refusal> {
-        self.shared.ledger().take(seed, film)
+        let mut ledger = self.shared.ledger();
+        let receipt = ledger.take(seed, film)?;
+        // Under the ledger's lock, so that nobody sees the samples here and there.
+        if let Some(own) = &mut *lock(&self.shared.own)
+            && !receipt.is_repeated
+        {
+            own.pending = own.pending.saturating_sub(film.record.as_ref().map_or(0, |record| record.samples));
+        }
+        Ok(receipt)
     }
 
     /// A copy of the film to be saved, by [`saved`](Self::saved) if that succeeds.
@@ -275,7 +284,12 @@ impl Master {
 
     /// Whether all that slaves have is in the film.
     pub fn has_all(&self) -> bool {
-        self.shared.busy.load(Ordering::Relaxed) == 0 && !self.shared.roster().is_at_work()
+        self.shared.busy.load(Ordering::Relaxed) == 0 && !self.shared.roster().is_at_work(Instant::now())
+    }
+
+    /// What slaves have not sent.
+    pub fn unsent(&self) -> Unsent {
+        self.shared.roster().unsent()
     }
 
     /// Whether nobody is there any more, and nothing on its way.

@@ -1,9 +1,10 @@
-//! Who takes part, and who was turned away.
+//! Who takes part.
 
-use crate::limits::{NAME, SILENCE, SLAVES};
+use crate::limits::{RETURN, SILENCE, SLAVES};
+use crate::plain::name_of;
 use std::collections::HashMap;
-use std::net::{IpAddr, SocketAddr};
-use std::time::{Duration, Instant};
+use std::net::SocketAddr;
+use std::time::Instant;
 
 /// Names a slave: random bytes that it has chosen.
 pub type SlaveId = [u8; 16];
@@ -62,7 +63,7 @@ pub struct Slave {
     pub samples: u64,
     /// By its own account.
     pub samples_per_second: f64,
-    /// Samples that it has still to send, by its own account.
+    /// Samples that it has still to send, by its own account: of one that is lost, when it was heard of last.
     pub waiting: u64,
     /// Uploads that were added.
     pub uploads: u64,
@@ -72,6 +73,17 @@ pub struct Slave {
     pub errors: u64,
     /// Why the last of these did.
     pub last_error: Option<String>,
+}
+
+/// What slaves have not sent, by their own account.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Unsent {
+    /// Slaves that are there and have something to send, or may.
+    pub here: usize,
+    /// Slaves that are gone and had something to send.
+    pub gone: usize,
+    /// Samples, as far as they have told.
+    pub samples: u64,
 }
 
 /// All slaves.
@@ -132,7 +144,7 @@ impl Roster {
             errors: 0,
             last_error: None,
         });
-        slave.name = shown(name);
+        slave.name = name_of(name);
         (slave.peer, slave.threads, slave.presence, slave.heard) = (peer, threads, Presence::Loading, now);
         // Some of what it told of last may have come since.
         slave.waiting = 0;
@@ -155,10 +167,15 @@ impl Roster {
         Some(slave)
     }
 
+    /// A slave that has been there, and may be gone: what it has sent may be looked at later than that.
+    pub fn known(&mut self, id: &SlaveId) -> Option<&mut Slave> {
+        self.slaves.get_mut(id)
+    }
+
     /// A slave says good-bye.
     pub fn leave(&mut self, id: &SlaveId) -> Option<&Slave> {
         let slave = self.slaves.get_mut(id).filter(|slave| slave.presence.is_there())?;
-        (slave.presence, slave.samples_per_second) = (Presence::Left, 0.0);
+        (slave.presence, slave.samples_per_second, slave.waiting) = (Presence::Left, 0.0, 0);
         Some(slave)
     }
 
@@ -168,9 +185,9 @@ impl Roster {
     }
 
     /// The connection from an address has ended: the name of the slave that is gone by that, if one is.
-    pub fn disconnected(&mut self, peer: SocketAddr) -> Option<String> {
+    pub fn disconnected(&mut self, peer: SocketAddr, now: Instant) -> Option<String> {
         let slave = self.slaves.values_mut().find(|slave| slave.peer == peer && slave.presence.is_there())?;
-        (slave.presence, slave.samples_per_second) = (Presence::Lost, 0.0);
+        (slave.presence, slave.samples_per_second, slave.heard) = (Presence::Lost, 0.0, now);
         Some(slave.name.clone())
     }
 
@@ -198,9 +215,31 @@ impl Roster {
         self.slaves.values().filter(|slave| slave.presence.is_there()).count()
     }
 
-    /// Whether somebody is there who may have something left to send.
-    pub fn is_at_work(&self) -> bool {
-        self.slaves.values().any(|slave| matches!(slave.presence, Presence::Loading | Presence::Rendering))
+    /// Whether somebody may have something left to send, who is there or just went and may be back in a moment.
+    pub fn is_at_work(&self, now: Instant) -> bool {
+        self.slaves.values().any(|slave| match slave.presence {
+            Presence::Loading | Presence::Rendering => true,
+            Presence::Lost => now.saturating_duration_since(slave.heard) < RETURN,
+            Presence::Done | Presence::Left => false,
+        })
+    }
+
+    /// Who holds samples that have not come, or may do so, and about how many.
+    pub fn unsent(&self) -> Unsent {
+        self.slaves.values().fold(Unsent::default(), |sum, slave| {
+            let (here, gone) = match slave.presence {
+                Presence::Rendering => (1, 0),
+                // It was at work before its connection broke.
+                Presence::Loading if slave.waiting > 0 => (1, 0),
+                Presence::Lost if slave.waiting > 0 => (0, 1),
+                _ => return sum,
+            };
+            Unsent {
+                here: sum.here + here,
+                gone: sum.gone + gone,
+                samples: sum.samples.saturating_add(slave.waiting),
+            }
+        })
     }
 
     /// What those that are there render, by their own account.
@@ -215,83 +254,10 @@ impl Roster {
     }
 }
 
-/// A name without what a terminal or a page could take for something else, and not too long.
-fn shown(name: &str) -> String {
-    let plain = |c: char| if c.is_alphanumeric() || " .-_()".contains(c) { c } else { '_' };
-    let name: String = name.chars().take(NAME).map(plain).collect();
-    if name.trim().is_empty() { "a slave".to_owned() } else { name }
-}
-
-/// Counts refusals by address, so that whoever knocks all day does not fill the log.
-#[derive(Debug, Default)]
-pub struct Refusals {
-    by_address: HashMap<IpAddr, Told>,
-    total: u64,
-    /// Refusals of all addresses together that were told in the minute that began then.
-    minute: Option<(Instant, u32)>,
-}
-
-#[derive(Debug)]
-struct Told {
-    /// Refusals since they were last told of.
-    untold: u64,
-    /// When the next is told at the earliest.
-    next: Instant,
-    /// The time between the last two.
-    pause: Duration,
-}
-
-/// The longest time for which refusals of an address are passed over.
-const LONGEST_PAUSE: Duration = Duration::from_mins(10);
-/// Refusals of an address are all told as long as they are this far apart.
-const SHORTEST_PAUSE: Duration = Duration::from_secs(1);
-/// Addresses that are remembered.
-const ADDRESSES: usize = 1024;
-/// The most refusals that are told in a minute, however many addresses they come from.
-const TOLD_A_MINUTE: u32 = 20;
-
-/// What counts as one address: of IPv6 whoever has one has 2^64.
-fn household(peer: IpAddr) -> IpAddr {
-    match peer.to_canonical() {
-        IpAddr::V6(v6) => IpAddr::V6((v6.to_bits() >> 64 << 64).into()),
-        v4 @ IpAddr::V4(_) => v4,
-    }
-}
-
-impl Refusals {
-    /// Counts one; if it is to be told, how many were not before it.
-    pub fn add(&mut self, peer: IpAddr, now: Instant) -> Option<u64> {
-        self.total += 1;
-        let peer = household(peer);
-        let minute = self.minute.filter(|(since, _)| now < *since + Duration::from_mins(1));
-        let (since, in_minute) = minute.unwrap_or((now, 0));
-        let is_crowded = in_minute >= TOLD_A_MINUTE;
-        if self.by_address.len() >= ADDRESSES && !self.by_address.contains_key(&peer) {
-            self.by_address.clear();
-        }
-        let told =
-            self.by_address.entry(peer).or_insert(Told { untold: 0, next: now, pause: SHORTEST_PAUSE });
-        if now < told.next || is_crowded {
-            told.untold += 1;
-            return None;
-        }
-        self.minute = Some((since, in_minute + 1));
-        // Who has been quiet for long starts anew.
-        let is_quiet = now.saturating_duration_since(told.next) > told.pause;
-        told.pause = if is_quiet { SHORTEST_PAUSE } else { (told.pause * 2).min(LONGEST_PAUSE) };
-        told.next = now + told.pause;
-        Some(std::mem::take(&mut told.untold))
-    }
-
-    /// All of them.
-    pub fn total(&self) -> u64 {
-        self.total
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::time::Duration;
 
     fn peer(n: u8) -> SocketAddr {
         ([10, 0, 0, n], 1234).into()
@@ -333,9 +299,26 @@ mod tests {
         let (mut roster, now) = (Roster::default(), Instant::now());
         roster.join([1; 16], introduction(1, 1), now).unwrap();
         roster.join([1; 16], introduction(2, 1), now).unwrap();
-        assert_eq!(roster.disconnected(peer(1)), None);
-        assert_eq!(roster.disconnected(peer(2)).as_deref(), Some("box"));
-        assert_eq!((roster.disconnected(peer(2)), roster.present()), (None, 0));
+        assert_eq!(roster.disconnected(peer(1), now), None);
+        assert_eq!(roster.disconnected(peer(2), now).as_deref(), Some("box"));
+        assert_eq!((roster.disconnected(peer(2), now), roster.present()), (None, 0));
+    }
+
+    /// Its connection is broken, and it may try again in a second: the end of a render waits for that.
+    #[test]
+    fn who_has_just_gone_may_be_back() {
+        let (mut roster, now) = (Roster::default(), Instant::now());
+        roster.join([1; 16], introduction(1, 1), now).unwrap();
+        roster.join([2; 16], introduction(2, 2), now).unwrap();
+        let slave = roster.heard(&[1; 16], now).unwrap();
+        (slave.presence, slave.waiting) = (Presence::Rendering, 7);
+        assert_eq!(roster.unsent(), Unsent { here: 1, gone: 0, samples: 7 });
+        roster.disconnected(peer(1), now).unwrap();
+        roster.leave(&[2; 16]).unwrap();
+        assert!(roster.is_at_work(now) && !roster.is_at_work(now + RETURN));
+        assert_eq!((roster.waiting(), roster.unsent()), (0, Unsent { here: 0, gone: 1, samples: 7 }));
+        roster.join([1; 16], introduction(3, 1), now).unwrap();
+        assert_eq!(roster.unsent().samples, 0, "it may have come meanwhile");
     }
 
     #[test]
@@ -353,31 +336,5 @@ mod tests {
         roster.leave(&id(17));
         assert!(roster.join(id(SLAVES), introduction(2, SLAVES as u64), now).is_ok());
         assert_eq!(roster.all().len(), SLAVES);
-    }
-
-    #[test]
-    fn names_cannot_write_over_the_screen() {
-        assert_eq!(shown("render-3.local (night)"), "render-3.local (night)");
-        assert_eq!(shown("\x1b[2J<b>\n"), "__2J_b__");
-        assert_eq!(shown(&"x".repeat(1000)).len(), NAME);
-        assert_eq!(shown(" "), "a slave");
-    }
-
-    #[test]
-    fn who_knocks_all_day_is_told_of_now_and_then() {
-        let (mut refusals, start) = (Refusals::default(), Instant::now());
-        let told = (0..36_000)
-            .filter_map(|n| refusals.add(peer(1).ip(), start + Duration::from_millis(100) * n))
-            .collect::<Vec<_>>();
-        assert!(told.len() < 20, "{}", told.len());
-        assert!(told.iter().sum::<u64>() + told.len() as u64 <= 36_000 && refusals.total() == 36_000);
-        let later = start + Duration::from_hours(2);
-        assert_eq!(refusals.add(peer(2).ip(), later), Some(0), "others are told of all the same");
-        let strangers = (0..4000u32).filter_map(|n| refusals.add(IpAddr::from(n.to_be_bytes()), later));
-        assert!(strangers.count() <= 20, "not all of many addresses");
-        let of_v6 = |n: u16| IpAddr::from([0x2001, 0xdb8, 0, 0, 0, 0, 0, n]);
-        let much_later = later + Duration::from_hours(1);
-        assert_eq!(refusals.add(of_v6(1), much_later), Some(0));
-        assert_eq!(refusals.add(of_v6(2), much_later), None, "of the same house");
     }
 }

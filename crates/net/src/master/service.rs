@@ -1,11 +1,12 @@
 //! The calls that a master answers.
 
+use super::Shared;
 use super::listen::Peer;
 use super::roster::{Introduction, Presence, SlaveId};
-use super::{Shared, lock};
 use crate::event::Event;
 use crate::ledger::{Receipt, Refusal, run_of};
-use crate::limits::{PIECE, PROTOCOL, REPORTS, REPORTS_NEAR_END, SILENCE};
+use crate::limits::{PIECE, PROTOCOL, REPORTS, REPORTS_NEAR_END, SILENCE, UPLOAD};
+use crate::plain::plain;
 use crate::proto::farm_server::Farm;
 use crate::proto::report_reply::Order;
 use crate::proto::report_request::State;
@@ -21,10 +22,10 @@ use std::net::{Ipv4Addr, SocketAddr};
 use std::pin::Pin;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 use tokio::task::spawn_blocking;
 use tokio::time::timeout;
-use tokio_stream::{Stream, iter};
+use tokio_stream::{Stream, StreamExt as _, iter};
 use tonic::{Request, Response, Status, Streaming};
 
 /// Answers calls.
@@ -41,7 +42,8 @@ impl Service {
     /// Turns a caller away, and tells of it.
     fn refuse(&self, peer: SocketAddr, status: Status) -> Status {
         self.shared.refused(peer, status.message());
-        status
+        // It may hold what the caller has said, of whatever length.
+        Status::new(status.code(), plain(status.message()))
     }
 }
 
@@ -57,6 +59,9 @@ fn version(program: &str) -> &str {
 
 /// The most samples a second that a slave is believed to render.
 const FASTEST: f64 = 1e12;
+
+/// So many characters of what another program calls itself are shown.
+const SHOWN_PROGRAM: usize = 100;
 
 /// A slave's name for itself.
 fn slave_id(bytes: &[u8]) -> Result<SlaveId, Status> {
@@ -102,7 +107,7 @@ impl Farm for Service {
             let what = format!(
                 "the master is \"{ours}\" (protocol {PROTOCOL}), and the slave is \"{}\" (protocol {protocol}): \
                  samples of different programs do not mix, so the same version is needed",
-                program.chars().take(100).collect::<String>()
+                program.chars().take(SHOWN_PROGRAM).collect::<String>()
             );
             return Err(self.refuse(peer, Status::failed_precondition(what)));
         }
@@ -121,9 +126,14 @@ impl Farm for Service {
         let introduction = Introduction { name: &name, peer, seed, threads };
         let joined = shared.roster().join(id, introduction, Instant::now()).map(|slave| slave.name.clone());
         let slave = joined.map_err(|reason| self.refuse(peer, Status::already_exists(reason)))?;
-        let (merged_end, durable_end) = {
+        let ((merged_end, durable_end), generation) = {
             let shared = Arc::clone(shared);
-            spawn_blocking(move || shared.ledger().ends(seed)).await.map_err(failed)?
+            let known = spawn_blocking(move || {
+                let ledger = shared.ledger();
+                let ends = ledger.ends(seed);
+                (ends, ledger.generation_of(seed, ends.0))
+            });
+            known.await.map_err(failed)?
         };
         shared.tell(Event::Joined { slave, peer, threads });
         let scene = &shared.scene;
@@ -148,6 +158,7 @@ impl Farm for Service {
             report_period_s: REPORTS.as_secs_f64(),
             merged_end,
             durable_end,
+            generation,
         }))
     }
 
@@ -181,25 +192,18 @@ impl Farm for Service {
         let id = slave_id(&start.slave).map_err(|status| self.refuse(peer, status))?;
         let seed = self.shared.roster().heard(&id, Instant::now()).ok_or_else(unknown)?.seed;
         let result = self.receive(id, seed, &start, stream).await;
-        let mut roster = self.shared.roster();
-        let slave = roster.heard(&id, Instant::now());
         match result {
-            Ok((samples, receipt)) => {
-                if let Some(slave) = slave {
-                    slave.samples += if receipt.is_repeated { 0 } else { samples };
-                    slave.uploads += 1;
-                    slave.last_upload = Some(slave.heard);
-                }
-                let Receipt { merged_end, durable_end, generation, .. } = receipt;
+            Ok(Receipt { merged_end, durable_end, generation, .. }) => {
+                self.shared.roster().heard(&id, Instant::now());
                 Ok(Response::new(UploadReply { merged_end, durable_end, generation }))
             }
             Err(status) => {
-                if let Some(slave) = slave {
+                let status = self.refuse(peer, status);
+                if let Some(slave) = self.shared.roster().known(&id) {
                     slave.errors += 1;
                     slave.last_error = Some(status.message().to_owned());
                 }
-                drop(roster);
-                Err(self.refuse(peer, status))
+                Err(status)
             }
         }
     }
@@ -207,21 +211,11 @@ impl Farm for Service {
     async fn report(&self, request: Request<ReportRequest>) -> Result<Response<ReportReply>, Status> {
         let report = request.into_inner();
         let id = slave_id(&report.slave)?;
-        let seed = {
-            let mut roster = self.shared.roster();
-            let slave = roster.heard(&id, Instant::now()).ok_or_else(unknown)?;
-            slave.presence = match report.state() {
-                State::Loading => Presence::Loading,
-                State::Rendering => Presence::Rendering,
-                State::Done => Presence::Done,
-            };
-            let rate = report.samples_per_second;
-            slave.samples_per_second = if rate.is_finite() { rate.clamp(0.0, FASTEST) } else { 0.0 };
-            slave.waiting = report.waiting_samples;
-            slave.seed
-        };
+        // It lives, however long the film is busy.
+        self.shared.roster().heard(&id, Instant::now()).ok_or_else(unknown)?;
         let shared = Arc::clone(&self.shared);
-        let (_, durable_end) = spawn_blocking(move || shared.ledger().ends(seed)).await.map_err(failed)?;
+        let noted = spawn_blocking(move || note(&shared, &id, &report));
+        let durable_end = noted.await.map_err(failed)?.ok_or_else(unknown)?;
         let is_ending = self.shared.is_ending.load(Ordering::Relaxed);
         let order = if is_ending { Order::Finish } else { Order::GoOn };
         let is_near_end = self.shared.is_near_end.load(Ordering::Relaxed);
@@ -240,14 +234,14 @@ impl Farm for Service {
 }
 
 impl Service {
-    /// Receives a parcel and adds it to the film; how many samples it had, and what became of it.
+    /// Receives a parcel and adds it to the film; what became of it.
     async fn receive(
         &self,
         id: SlaveId,
         seed: u64,
         start: &UploadStart,
-        mut stream: Streaming<UploadPart>,
-    ) -> Result<(u64, Receipt), Status> {
+        stream: Streaming<UploadPart>,
+    ) -> Result<Receipt, Status> {
         let shared = &self.shared;
         let _busy = Busy::new(shared);
         if start.bytes > shared.parcel_limit {
@@ -256,44 +250,51 @@ impl Service {
             return Err(Status::resource_exhausted(what));
         }
         let mut parcel = shared.rooms.take(start.bytes).await.map_err(failed)?;
-        while let Some(part) = next(&mut stream).await? {
-            let Part::Data(data) = part else {
-                return Err(Status::invalid_argument("an upload has one beginning"));
-            };
-            if (parcel.len() + data.len()) as u64 > start.bytes {
-                return Err(Status::resource_exhausted("an upload is longer than it says"));
-            }
-            parcel.extend_from_slice(&data);
-            shared.bytes_received.fetch_add(data.len() as u64, Ordering::Relaxed);
+        gather(&mut parcel, start.bytes, UPLOAD, stream, |bytes| {
+            shared.bytes_received.fetch_add(bytes, Ordering::Relaxed);
             shared.roster().heard(&id, Instant::now());
-        }
-        if (parcel.len() as u64) < start.bytes {
-            return Err(Status::data_loss("an upload is shorter than it says"));
-        }
+        })
+        .await?;
         let shared = Arc::clone(shared);
         spawn_blocking(move || add(&shared, id, seed, &parcel)).await.map_err(failed)?
     }
 }
 
+/// Notes a slave's report; where its units end in the file. `None` if it has not joined.
+fn note(shared: &Shared, id: &SlaveId, report: &ReportRequest) -> Option<u64> {
+    let ledger = shared.ledger();
+    let mut roster = shared.roster();
+    let slave = roster.heard(id, Instant::now())?;
+    slave.presence = match report.state() {
+        State::Loading => Presence::Loading,
+        State::Rendering => Presence::Rendering,
+        State::Done => Presence::Done,
+    };
+    let rate = report.samples_per_second;
+    slave.samples_per_second = if rate.is_finite() { rate.clamp(0.0, FASTEST) } else { 0.0 };
+    let (merged_end, durable_end) = ledger.ends(slave.seed);
+    // What has come since it last heard of that would else count as waiting, too.
+    if report.merged_end == merged_end {
+        slave.waiting = report.waiting_samples;
+    }
+    Some(durable_end)
+}
+
 /// Adds a parcel to the film, and tells of it before anybody can copy that: what a file has is told of, whatever happens then.
-fn add(shared: &Shared, id: SlaveId, seed: u64, parcel: &[u8]) -> Result<(u64, Receipt), Status> {
+fn add(shared: &Shared, id: SlaveId, seed: u64, parcel: &[u8]) -> Result<Receipt, Status> {
     let damaged = |error| Status::invalid_argument(format!("an upload is damaged: {error}"));
-    let (size, expected) = (parcel_size(parcel).map_err(damaged)?, lock(&shared.ledger).size());
+    let (size, expected) = (parcel_size(parcel).map_err(damaged)?, shared.ledger().size());
     if size != expected {
         return Err(Status::invalid_argument(format!("an upload is {size}, and the film is {expected}")));
     }
     let film = Parcel::open(parcel).map_err(damaged)?;
     let samples = film.record().map_or(0, |record| record.samples);
-    // Before they are in the film, so that none is ever counted twice.
-    let name = shared.roster().heard(&id, Instant::now()).map(|slave| {
-        slave.waiting = slave.waiting.saturating_sub(samples);
-        slave.name.clone()
-    });
     let mut ledger = shared.ledger();
     let receipt = ledger
         .take(seed, &film)
         .map_err(|refusal: Refusal| Status::invalid_argument(format!("an upload is refused: {refusal}")))?;
-    let slave = name.unwrap_or_default();
+    // Under the ledger's lock, so that nobody sees the samples as waiting and in the film.
+    let slave = credit(shared, &id, samples, &receipt);
     shared.tell(if receipt.is_repeated {
         Event::Repeated { slave }
     } else {
@@ -302,18 +303,85 @@ fn add(shared: &Shared, id: SlaveId, seed: u64, parcel: &[u8]) -> Result<(u64, R
         Event::Added { slave, samples, bytes: parcel.len() as u64, run, missing: receipt.missing }
     });
     drop(ledger);
-    Ok((samples, receipt))
+    Ok(receipt)
+}
+
+/// Counts an upload for its slave, which may be gone by now; the slave's name.
+fn credit(shared: &Shared, id: &SlaveId, samples: u64, receipt: &Receipt) -> String {
+    let mut roster = shared.roster();
+    let Some(slave) = roster.known(id) else { return String::new() };
+    if !receipt.is_repeated {
+        slave.waiting = slave.waiting.saturating_sub(samples);
+        slave.samples += samples;
+        slave.uploads += 1;
+        slave.last_upload = Some(Instant::now());
+    }
+    slave.name.clone()
+}
+
+/// Gathers the parts of an upload behind its beginning, within a time, and tells of the bytes of each.
+async fn gather(
+    parcel: &mut Vec<u8>,
+    length: u64,
+    time: Duration,
+    mut parts: impl Stream<Item = Result<UploadPart, Status>> + Unpin,
+    came: impl Fn(u64),
+) -> Result<(), Status> {
+    let gathered = async {
+        while let Some(part) = next(&mut parts).await? {
+            let Part::Data(data) = part else {
+                return Err(Status::invalid_argument("an upload has one beginning"));
+            };
+            if (parcel.len() + data.len()) as u64 > length {
+                return Err(Status::resource_exhausted("an upload is longer than it says"));
+            }
+            parcel.extend_from_slice(&data);
+            came(data.len() as u64);
+        }
+        if (parcel.len() as u64) < length {
+            return Err(Status::data_loss("an upload is shorter than it says"));
+        }
+        Ok(())
+    };
+    // Who gives little each time holds room that others wait for.
+    let late = |_| Err(Status::deadline_exceeded("an upload takes too long"));
+    timeout(time, gathered).await.unwrap_or_else(late)
 }
 
 /// The next part of an upload, within a time.
-async fn next(stream: &mut Streaming<UploadPart>) -> Result<Option<Part>, Status> {
-    match timeout(SILENCE, stream.message()).await {
-        Ok(Ok(Some(UploadPart { part: Some(part) }))) => Ok(Some(part)),
-        Ok(Ok(Some(UploadPart { part: None }))) => {
+async fn next(
+    parts: &mut (impl Stream<Item = Result<UploadPart, Status>> + Unpin),
+) -> Result<Option<Part>, Status> {
+    match timeout(SILENCE, parts.next()).await {
+        Ok(Some(Ok(UploadPart { part: Some(part) }))) => Ok(Some(part)),
+        Ok(Some(Ok(UploadPart { part: None }))) => {
             Err(Status::invalid_argument("an upload has an empty part"))
         }
-        Ok(Ok(None)) => Ok(None),
-        Ok(Err(status)) => Err(status),
+        Ok(Some(Err(status))) => Err(status),
+        Ok(None) => Ok(None),
         Err(_) => Err(Status::deadline_exceeded("an upload has stopped in its midst")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tokio::time::sleep;
+
+    /// Who gives a little each time, so that it is never silent, does not hold its room for ever.
+    #[test]
+    fn an_upload_has_its_time() {
+        let clock = tokio::runtime::Builder::new_current_thread().enable_time().build();
+        clock.expect("a clock").block_on(async {
+            let drops = iter(0..).then(|_| async {
+                sleep(Duration::from_millis(5)).await;
+                Ok(UploadPart { part: Some(Part::Data(Bytes::from_static(b"."))) })
+            });
+            let (mut parcel, time) = (vec![], Duration::from_millis(200));
+            let gathered = gather(&mut parcel, u64::MAX, time, Box::pin(drops), |bytes| assert_eq!(bytes, 1));
+            let status = gathered.await.expect_err("it never ends");
+            assert!(status.message().contains("takes too long"), "{status}");
+            assert!(parcel.len() > 1, "it was not silent");
+        });
     }
 }

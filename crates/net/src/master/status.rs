@@ -78,17 +78,17 @@ pub struct SlaveStatus {
 impl Status {
     pub(super) fn of(shared: &Shared) -> Self {
         let now = Instant::now();
+        // At one moment: what comes in between would else be counted twice, or not at all.
+        let ledger = shared.ledger();
         let own = *lock(&shared.own);
         let (own_rate, pending) = own.map_or((0.0, 0), |own| (own.samples_per_second, own.pending));
-        // Before what waits: what comes in between would else be counted twice.
-        let (size, samples, rendered_s) = {
-            let ledger = shared.ledger();
-            (ledger.size(), ledger.record().samples + pending, ledger.record().elapsed_s)
-        };
+        let (size, rendered_s) = (ledger.size(), ledger.record().elapsed_s);
+        let samples = ledger.record().samples + pending;
         let (slaves, samples_per_second, present, waiting) = {
             let roster = shared.roster();
             (roster.all(), roster.samples_per_second(), roster.present(), roster.waiting())
         };
+        drop(ledger);
         let refused = lock(&shared.refusals).total();
         Self {
             scene: shared.scene.name.clone(),

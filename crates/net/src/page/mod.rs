@@ -110,13 +110,20 @@ fn is_this_machine(host: &str) -> bool {
 }
 
 async fn status_json(State(view): State<View>) -> Response {
-    let json = text::json(&(view.status)(), view.picture_version());
-    ([(CONTENT_TYPE, "application/json")], json).into_response()
+    told("application/json", move || text::json(&(view.status)(), view.picture_version())).await
 }
 
 async fn metrics(State(view): State<View>) -> Response {
-    let text = text::metrics(&(view.status)());
-    ([(CONTENT_TYPE, "text/plain; version=0.0.4")], text).into_response()
+    told("text/plain; version=0.0.4", move || text::metrics(&(view.status)())).await
+}
+
+/// A text that takes the film's lock, which whoever copies the film holds for long: the threads that talk to slaves do not
+/// wait for that.
+async fn told(kind: &'static str, text: impl FnOnce() -> String + Send + 'static) -> Response {
+    match tokio::task::spawn_blocking(text).await {
+        Ok(text) => ([(CONTENT_TYPE, kind)], text).into_response(),
+        Err(_) => StatusCode::INTERNAL_SERVER_ERROR.into_response(),
+    }
 }
 
 /// The picture as it was saved last.

@@ -1,13 +1,11 @@
 //! Calls to a master, and what becomes of a visit by their answers.
 
-use crate::limits::{ANSWER, SILENCE};
-use crate::proto::ReportRequest;
+use crate::limits::ANSWER;
+use crate::plain::plain;
 use crate::proto::farm_client::FarmClient;
-use crate::proto::report_request::State;
-use bytes::Bytes;
 use std::error::Error as _;
 use std::future::Future;
-use tokio::time::{interval, timeout};
+use tokio::time::timeout;
 use tonic::transport::Channel;
 use tonic::{Code, Status};
 
@@ -32,7 +30,7 @@ pub enum Outcome {
 pub fn refusal(status: &Status) -> Outcome {
     let message = match status.message() {
         "" => status.code().description().to_owned(),
-        message => message.to_owned(),
+        message => plain(message),
     };
     match status.code() {
         Code::FailedPrecondition | Code::AlreadyExists | Code::InvalidArgument | Code::Unimplemented => {
@@ -54,27 +52,6 @@ pub async fn answer<T>(call: impl Future<Output = Result<tonic::Response<T>, Sta
         Ok(Ok(reply)) => Ok(reply.into_inner()),
         Ok(Err(status)) => Err(refusal(&status)),
         Err(_) => Err(Outcome::Lost("the master does not answer".to_owned())),
-    }
-}
-
-/// What a call gives that may take long, with signs of life meanwhile: it may have to wait for its turn, or for the network.
-pub async fn beside_reports<T>(
-    call: impl Future<Output = T>,
-    client: &mut Client,
-    id: &[u8; 16],
-) -> Result<T, Outcome> {
-    let mut call = std::pin::pin!(call);
-    let mut reports = interval(SILENCE / 4);
-    reports.tick().await;
-    loop {
-        tokio::select! {
-            given = &mut call => return Ok(given),
-            _ = reports.tick() => {
-                let slave = Bytes::copy_from_slice(id);
-                let report = ReportRequest { slave, state: State::Rendering.into(), ..ReportRequest::default() };
-                answer(client.report(report)).await?;
-            }
-        }
     }
 }
 

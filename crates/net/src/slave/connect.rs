@@ -11,6 +11,7 @@ use rustls::pki_types::ServerName;
 use std::io;
 use std::net::{IpAddr, SocketAddr};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
 use tokio::io::{AsyncRead, AsyncWrite};
 use tokio::net::{TcpSocket, lookup_host};
 use tokio::time::timeout;
@@ -60,7 +61,6 @@ impl Connector {
     /// Why it is not reached, in words.
     pub async fn connect(&self, host: &str, port: u16) -> Result<FarmClient<Channel>, String> {
         let endpoint = Endpoint::from_static("http://indigo")
-            .connect_timeout(2 * HANDSHAKE)
             .http2_keep_alive_interval(KEEP_ALIVE)
             .keep_alive_timeout(SILENCE)
             .keep_alive_while_idle(true)
@@ -72,9 +72,7 @@ impl Connector {
         let connector = tower::service_fn(move |_| {
             let (host, tls, noted) = (host.clone(), tls.clone(), Arc::clone(&noted));
             async move {
-                let opened = timeout(HANDSHAKE, open(&host, port, tls)).await;
-                let opened = opened.unwrap_or_else(|_| Err(io::Error::other("it does not answer")));
-                opened.map(TokioIo::new).inspect_err(|error| {
+                open(&host, port, tls).await.map(TokioIo::new).inspect_err(|error| {
                     *noted.lock().unwrap_or_else(PoisonError::into_inner) = Some(error.to_string());
                 })
             }
@@ -95,18 +93,34 @@ trait Stream: AsyncRead + AsyncWrite + Send + Unpin {}
 impl<T: AsyncRead + AsyncWrite + Send + Unpin> Stream for T {}
 
 async fn open(host: &str, port: u16, tls: Option<Arc<ClientConfig>>) -> io::Result<Box<dyn Stream>> {
-    let mut last = io::Error::other(format!("{host} has no address"));
-    for address in lookup_host((host, port)).await? {
-        if tls.is_none() && !is_local(address.ip()) {
-            last = io::Error::other(NetError::NotLocal(address.to_string()));
-            continue;
-        }
-        match open_address(address, tls.as_ref()).await {
-            Ok(stream) => return Ok(stream),
-            Err(error) => last = error,
+    let late = || io::Error::other(format!("nobody says what address {host} has"));
+    let addresses = timeout(HANDSHAKE, lookup_host((host, port))).await.map_err(|_| late())??;
+    let nowhere = io::Error::other(format!("{host} has no address"));
+    open_one(addresses, tls.as_ref(), HANDSHAKE).await.unwrap_or(Err(nowhere))
+}
+
+/// The first of a host's addresses that answers within a time, which each of them has: an address that no network leads to
+/// takes it all. Else why the last is not reached, if there is one.
+async fn open_one(
+    addresses: impl Iterator<Item = SocketAddr>,
+    tls: Option<&Arc<ClientConfig>>,
+    time: Duration,
+) -> Option<io::Result<Box<dyn Stream>>> {
+    let mut last = None;
+    for address in addresses {
+        let opened = if tls.is_none() && !is_local(address.ip()) {
+            Err(io::Error::other(NetError::NotLocal(address.to_string())))
+        } else {
+            let opened = timeout(time, open_address(address, tls)).await;
+            opened.unwrap_or_else(|_| Err(io::Error::other("it does not answer")))
+        };
+        let is_open = opened.is_ok();
+        last = Some(opened);
+        if is_open {
+            break;
         }
     }
-    Err(last)
+    last
 }
 
 /// Whether an address is this machine's own, which no other can listen to.
@@ -159,6 +173,29 @@ mod tests {
         ] {
             assert_eq!(of(bad), None, "{bad}");
         }
+    }
+
+    /// A host with two addresses, of which the first takes connections and never says a word.
+    #[test]
+    fn an_address_that_is_silent_leaves_time_for_the_next() {
+        let [silent, alive] = [(); 2].map(|()| std::net::TcpListener::bind("127.0.0.1:0").expect("free"));
+        let addresses = [&silent, &alive].map(|listener| listener.local_addr().expect("it is bound"));
+        let key = Key::random().expect("randomness");
+        let (ours, theirs) = (tls::client(&key).expect("ours"), tls::server(&key).expect("theirs"));
+        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().expect("threads");
+        runtime.block_on(async {
+            alive.set_nonblocking(true).expect("a socket of ours");
+            let alive = tokio::net::TcpListener::from_std(alive).expect("a listener");
+            let answering = tokio::spawn(async move {
+                let (tcp, _) = alive.accept().await?;
+                tokio_rustls::TlsAcceptor::from(theirs).accept(tcp).await
+            });
+            // Each its own, or nothing would be left for the second.
+            let opened = open_one(addresses.into_iter(), Some(&ours), Duration::from_secs(3)).await;
+            assert!(opened.is_some_and(|opened| opened.is_ok()));
+            assert!(answering.await.expect("it runs").is_ok());
+        });
+        drop(silent);
     }
 
     #[test]

@@ -65,11 +65,10 @@ pub async fn receive(mut pieces: Streaming<Piece>, length: u64, hash: &[u8]) -> 
         }
         pack.extend_from_slice(&data);
     }
-    if blake3::hash(&pack).as_bytes() == hash {
-        Ok(pack)
-    } else {
-        Err("the scene was damaged on its way".to_owned())
-    }
+    // That of a large scene takes seconds, in which the master may want an answer.
+    let hashed = tokio::task::spawn_blocking(move || (blake3::hash(&pack), pack));
+    let (found, pack) = hashed.await.map_err(|error| error.to_string())?;
+    if found.as_bytes() == hash { Ok(pack) } else { Err("the scene was damaged on its way".to_owned()) }
 }
 
 /// Keeps a packed scene, and throws away what has not been used for longest.

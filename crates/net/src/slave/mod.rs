@@ -4,7 +4,10 @@ pub(crate) mod calls;
 mod connect;
 mod engine;
 pub(crate) mod fetch;
-mod visit;
+mod load;
+mod parcels;
+mod reach;
+pub(crate) mod visit;
 mod work;
 
 pub use connect::{Connector, host_and_port, written};
@@ -12,14 +15,14 @@ pub use fetch::SceneFiles;
 
 use crate::NetError;
 use crate::event::{Event, Sink};
-use crate::key::{Key, random_bytes};
+use crate::key::Key;
 use calls::Outcome;
 use indigo_render::Progress;
 use indigo_scene::Scene;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 use tokio::sync::watch;
 use visit::Life;
 
@@ -72,15 +75,11 @@ impl Slave {
     /// # Errors
     /// Where there are no threads, no randomness or no encryption.
     pub fn start(options: Options, loader: Arc<dyn Loader>, sink: Sink) -> Result<Self, NetError> {
-        let connector = Connector::new(options.key.as_ref())?;
-        let id = random_bytes()?;
-        let seed = options.seed.map_or_else(|| random_bytes().map(u64::from_le_bytes), Ok)?;
         let runtime =
             tokio::runtime::Builder::new_current_thread().enable_all().build().map_err(NetError::Threads)?;
         let (stop, stopped) = watch::channel(false);
-        let seen = Arc::default();
-        let life =
-            Life { options, connector, loader, sink, id, seed, stopped, work: None, seen: Arc::clone(&seen) };
+        let life = Life::new(options, loader, sink, stopped)?;
+        let seen = Arc::clone(&life.seen);
         let thread = std::thread::Builder::new().name("slave".to_owned()).spawn(move || {
             let result = runtime.block_on(live(life));
             // A scene that is being loaded is not waited for.
@@ -136,15 +135,17 @@ async fn live(mut life: Life) -> Result<(), String> {
     }
     let mut pause = FIRST_PAUSE;
     let mut failures = 0u64;
-    let mut alone = Duration::ZERO;
+    // When a master was there last.
+    let mut last_seen = Instant::now();
     let mut has_left = true;
     while !life.is_stopped() {
         let mut reached = false;
         let outcome = life.visit(&mut reached).await;
         if reached {
-            (pause, failures, alone) = (FIRST_PAUSE, 0, Duration::ZERO);
+            (pause, failures, last_seen) = (FIRST_PAUSE, 0, Instant::now());
         }
-        has_left = matches!(outcome, Outcome::Stopped | Outcome::Finished);
+        // Who never came in has not said good-bye.
+        has_left = reached && matches!(outcome, Outcome::Stopped | Outcome::Finished);
         let (reason, wait) = match outcome {
             Outcome::Stopped => break,
             Outcome::Broken(message) => {
@@ -170,8 +171,7 @@ async fn live(mut life: Life) -> Result<(), String> {
             }
         }
         life.wait(wait).await;
-        alone += wait;
-        if alone >= ALONE {
+        if last_seen.elapsed() >= ALONE {
             life.rest();
         }
     }

@@ -1,33 +1,28 @@
 //! One connection to a master, from joining to good-bye.
 
-use super::calls::{Client, Outcome, answer, beside_reports, is_refused, refusal};
-use super::connect::{Connector, written};
-use super::fetch::{self, SceneFiles};
+use super::calls::{Client, Outcome, answer, is_refused, refusal};
+use super::connect::Connector;
+use super::parcels::{parcel_of, parts};
 use super::work::Work;
 use super::{Loader, Options};
-use crate::discovery;
+use crate::NetError;
 use crate::event::{Event, Sink};
 use crate::key::{KeyError, random_bytes};
-use crate::ledger::run_of;
-use crate::limits::{PIECE, PROTOCOL, UPLOAD};
+use crate::limits::UPLOAD;
+use crate::plain::plain;
 use crate::proto::report_reply::Order;
 use crate::proto::report_request::State;
-use crate::proto::upload_part::Part;
-use crate::proto::{
-    JoinReply, JoinRequest, LeaveRequest, ReportReply, ReportRequest, SceneRequest, UploadPart, UploadStart,
-};
+use crate::proto::{JoinReply, LeaveRequest, ReportRequest, UploadReply};
 use bytes::Bytes;
-use indigo_film::igi::write_parcel;
-use indigo_film::{FilmRecord, Run, SavedFilm};
+use indigo_film::FilmRecord;
 use indigo_render::Progress;
 use indigo_render::saved::blank_record;
-use indigo_scene::Scene;
 use std::net::SocketAddr;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 use tokio::sync::watch;
-use tokio::time::{Instant, interval, sleep, timeout};
-use tonic::Status;
+use tokio::time::{Instant, interval, sleep, sleep_until, timeout};
+use tonic::{Response, Status};
 
 /// The shortest and the longest time between reports that a slave keeps to, whatever a master asks for, in seconds.
 const REPORTS: [f64; 2] = [0.1, 10.0];
@@ -62,9 +57,43 @@ pub struct Life {
     pub work: Option<Work>,
     /// How far that is, for others to see.
     pub seen: Arc<Mutex<Option<Progress>>>,
+    /// What the master has of its units, as it said last.
+    pub merged_end: u64,
+    /// Time between reports, unless the master says otherwise, and when the next one is due.
+    pub report_period: Duration,
+    pub next_report: Instant,
+    /// Where masters were found that wanted nothing of it, or had nothing for it: others are tried first.
+    pub turned_down: Vec<SocketAddr>,
 }
 
 impl Life {
+    /// Nowhere yet.
+    ///
+    /// # Errors
+    /// Where there is no randomness or no encryption.
+    pub fn new(
+        options: Options,
+        loader: Arc<dyn Loader>,
+        sink: Sink,
+        stopped: watch::Receiver<bool>,
+    ) -> Result<Self, NetError> {
+        Ok(Self {
+            connector: Connector::new(options.key.as_ref())?,
+            id: random_bytes()?,
+            seed: options.seed.map_or_else(|| random_bytes().map(u64::from_le_bytes), Ok)?,
+            options,
+            loader,
+            sink,
+            stopped,
+            work: None,
+            seen: Arc::default(),
+            merged_end: 0,
+            report_period: crate::limits::REPORTS,
+            next_report: Instant::now(),
+            turned_down: vec![],
+        })
+    }
+
     /// Becomes another slave, with a random sequence of its own, unless that was chosen.
     ///
     /// # Errors
@@ -128,16 +157,21 @@ impl Life {
             joined = self.join() => joined,
             _ = stopped.wait_for(|stopped| *stopped) => Err(Outcome::Stopped),
         };
-        let (mut client, reply) = match joined {
+        let (mut client, reply, place) = match joined {
             Ok(joined) => joined,
             Err(outcome) => return outcome,
         };
         *reached = true;
+        self.merged_end = reply.merged_end;
+        (self.report_period, self.next_report) = (period(reply.report_period_s, REPORTS), Instant::now());
         let prepared = tokio::select! {
             prepared = self.prepare(&mut client, &reply) => prepared,
             _ = stopped.wait_for(|stopped| *stopped) => Err(Outcome::Stopped),
         };
         if let Err(outcome) = prepared {
+            if let (Outcome::Refused(_), Some(place)) = (&outcome, place) {
+                self.turn_down(place);
+            }
             self.leave(&mut client).await;
             return outcome;
         }
@@ -150,54 +184,7 @@ impl Life {
         }
     }
 
-    /// Connects, and introduces itself.
-    async fn join(&self) -> Result<(Client, JoinReply), Outcome> {
-        let Options { name, program, threads, .. } = &self.options;
-        let (mut client, master) = self.find().await.map_err(Outcome::Lost)?;
-        let request = JoinRequest {
-            protocol: PROTOCOL,
-            program: program.clone(),
-            slave: self.id(),
-            seed: self.seed,
-            name: name.clone(),
-            threads: u32::try_from(*threads).unwrap_or(u32::MAX),
-        };
-        let reply = answer(client.join(request)).await.map_err(|outcome| match outcome {
-            Outcome::Lost(why) if self.options.key.is_none() => Outcome::Lost(format!(
-                "{why}; if it has a key, this slave needs the same one (--key-file FILE)"
-            )),
-            outcome => outcome,
-        })?;
-        self.tell(Event::Connected { master, scene: reply.scene.clone() });
-        Ok((client, reply))
-    }
-
-    /// A connection to the master that was named, or to one in the local network that has the key; and where that is.
-    async fn find(&self) -> Result<(Client, String), String> {
-        if let Some((host, port)) = &self.options.master {
-            let client = self.connector.connect(host, *port).await;
-            let place = written(host, *port);
-            let client = client.map_err(|why| format!("no master is reached at {place}: {why}"))?;
-            return Ok((client, place));
-        }
-        let found = discovery::masters().await;
-        let found =
-            found.map_err(|why| format!("no master can be looked for: {why}; name its machine by -h"))?;
-        // Of several addresses the first says best why it is not reached: they are sorted.
-        let mut reason = None;
-        for (address, port) in found {
-            match self.connector.connect(&address.to_string(), port).await {
-                Ok(client) => return Ok((client, SocketAddr::from((address, port)).to_string())),
-                Err(why) => {
-                    let place = SocketAddr::from((address, port));
-                    reason.get_or_insert(format!("there is a master at {place}, but {why}"));
-                }
-            }
-        }
-        Err(reason.unwrap_or_else(|| "no master is in the local network".to_owned()))
-    }
-
-    fn id(&self) -> Bytes {
+    pub(super) fn id(&self) -> Bytes {
         Bytes::copy_from_slice(&self.id)
     }
 
@@ -211,29 +198,30 @@ impl Life {
         if self.work.as_ref().is_some_and(|work| !work.record.differences(&wanted).is_empty()) {
             self.lose(false, "the master has another scene now, and may not have saved them").await;
         }
+        let loaded = if self.work.is_none() { Some(self.load(client, reply).await?) } else { None };
         let Options { threads, program, .. } = &self.options;
-        let work = match &mut self.work {
-            Some(work) => {
-                let goes_on = work.go_on(*threads, self.seed, reply.merged_end, program);
-                if goes_on.map_err(Outcome::Broken)? {
-                    (self.sink)(Event::Rendering { scene: reply.scene.clone(), threads: *threads });
-                }
-                work
-            }
-            none => {
-                let scene = load(&self.options, &self.loader, &self.sink, client, self.id, reply).await?;
+        let (work, begins) = match (&mut self.work, loaded) {
+            (none, Some(scene)) => {
                 let differences = blank_record(&scene, program).differences(&wanted);
                 if !differences.is_empty() {
                     let words: Vec<String> = differences.iter().map(ToString::to_string).collect();
-                    let words = words.join("; ");
+                    let words = plain(&words.join("; "));
                     return Err(Outcome::Refused(format!("the scene is not the master's: {words}")));
                 }
                 let started = Work::start(scene, *threads, self.seed, reply.merged_end, program);
-                (self.sink)(Event::Rendering { scene: reply.scene.clone(), threads: *threads });
-                none.insert(started.map_err(Outcome::Broken)?)
+                (none.insert(started.map_err(Outcome::Broken)?), true)
             }
+            (Some(work), None) => {
+                let goes_on = work.go_on(*threads, self.seed, reply.merged_end, program);
+                let goes_on = goes_on.map_err(Outcome::Broken)?;
+                (work, goes_on)
+            }
+            (None, None) => return Ok(()),
         };
-        let lost = work.outbox.rejoined(reply.merged_end, reply.durable_end);
+        if begins {
+            (self.sink)(Event::Rendering { scene: plain(&reply.scene), threads: *threads });
+        }
+        let lost = work.outbox.rejoined(reply.merged_end, reply.durable_end, reply.generation);
         work.engine.rest(false);
         self.tell_lost(lost, "the master has a part of them");
         Ok(())
@@ -241,8 +229,6 @@ impl Life {
 
     /// Renders for the master until something ends that.
     async fn stay(&mut self, client: &mut Client, reply: &JoinReply) -> Result<Outcome, Outcome> {
-        let usual = period(reply.report_period_s, REPORTS);
-        let mut next_report = Instant::now();
         let between_uploads = period(reply.upload_period_s, UPLOADS);
         // What was not sent over the last connection is sent first.
         let has_rest = self.work.as_ref().is_some_and(|work| work.outbox.next().is_some());
@@ -251,12 +237,10 @@ impl Life {
         loop {
             let outcome = tokio::select! {
                 _ = stopped.wait_for(|stopped| *stopped) => Some(Outcome::Stopped),
-                () = tokio::time::sleep_until(next_report) => {
-                    let reply = self.report(client).await?;
-                    next_report = Instant::now() + reply.report_period_s.map_or(usual, |wanted| period(wanted, REPORTS));
-                    (reply.order() == Order::Finish).then_some(Outcome::Finished)
+                () = sleep_until(self.next_report) => {
+                    (self.report(client).await? == Order::Finish).then_some(Outcome::Finished)
                 }
-                () = tokio::time::sleep_until(next) => {
+                () = sleep_until(next) => {
                     next = Instant::now() + between_uploads;
                     self.send(client, false).await?;
                     None
@@ -288,8 +272,8 @@ impl Life {
         Ok(())
     }
 
-    /// Gives a sign of life.
-    async fn report(&mut self, client: &mut Client) -> Result<ReportReply, Outcome> {
+    /// Gives a sign of life, and hears what to do.
+    async fn report(&mut self, client: &mut Client) -> Result<Order, Outcome> {
         let progress = self.work.as_ref().and_then(|work| work.engine.seen().progress);
         *self.seen.lock().unwrap_or_else(PoisonError::into_inner) = progress;
         let state = match &self.work {
@@ -300,15 +284,38 @@ impl Life {
         let reply = answer(client.report(ReportRequest {
             slave: self.id(),
             state: state.into(),
-            samples: progress.map_or(0, |p| p.samples),
             samples_per_second: progress.map_or(0.0, |p| p.samples_per_second),
             waiting_samples: self.work.as_ref().map_or(0, Work::waiting_samples),
+            merged_end: self.merged_end,
         }))
         .await?;
         if let Some(work) = &mut self.work {
             work.outbox.saved(reply.durable_end);
         }
-        Ok(reply)
+        let wanted = reply.report_period_s.map(|wanted| period(wanted, REPORTS));
+        self.next_report = Instant::now() + wanted.unwrap_or(self.report_period);
+        Ok(reply.order())
+    }
+
+    /// What a call gives that may take long, with reports meanwhile: it may have to wait for its turn, for the network, or for a
+    /// disk. When the render ends meanwhile nothing more is rendered for it.
+    pub(super) async fn beside<T>(
+        &mut self,
+        client: &mut Client,
+        call: impl Future<Output = T>,
+    ) -> Result<T, Outcome> {
+        let mut call = std::pin::pin!(call);
+        loop {
+            tokio::select! {
+                given = &mut call => return Ok(given),
+                () = sleep_until(self.next_report) => {
+                    if self.report(client).await? == Order::Finish {
+                        let work = self.work.as_ref().ok_or(Outcome::Finished)?;
+                        work.engine.rest(true);
+                    }
+                }
+            }
+        }
     }
 
     /// Sends what waits, or else what has been rendered since; at the end both, and the session ends.
@@ -323,101 +330,50 @@ impl Life {
         if let Some(film) = rest {
             work.outbox.push(film);
         }
-        while let Some(film) = work.outbox.next() {
+        while let Some(film) = self.work.as_ref().and_then(|work| work.outbox.next()) {
             let (samples, run, parcel) = parcel_of(film);
             let bytes = parcel.len() as u64;
-            let parts = parts(Bytes::copy_from_slice(&self.id), parcel);
             let mut calls = client.clone();
-            let upload = timeout(UPLOAD, calls.upload(tokio_stream::iter(parts)));
-            let sent = beside_reports(upload, client, &self.id).await?;
-            match sent.unwrap_or_else(|_| Err(Status::deadline_exceeded("an upload takes too long"))) {
-                Ok(reply) => {
-                    let reply = reply.into_inner();
-                    // In this order: what is saved need not be joined to what is not.
-                    work.outbox.saved(reply.durable_end);
-                    work.outbox.received(reply.generation);
-                    (self.sink)(Event::Sent { samples, bytes, run });
-                }
-                // To be sent again it would have to become another.
-                Err(status) if is_refused(&status) => {
-                    work.outbox.discard();
-                    (self.sink)(Event::LostSamples { samples, reason: "the master refuses them" });
-                    (self.sink)(Event::Trouble(format!("the master refuses samples: {}", status.message())));
-                }
-                Err(status) => return Err(refusal(&status)),
+            let upload = calls.upload(tokio_stream::iter(parts(self.id(), parcel)));
+            let sent = self.beside(client, timeout(UPLOAD, upload)).await?;
+            let late = |_| Err(Status::deadline_exceeded("an upload takes too long"));
+            if self.has_taken(sent.unwrap_or_else(late), samples)? {
+                self.tell(Event::Sent { samples, bytes, run });
             }
         }
         Ok(())
+    }
+
+    /// Whether the master has taken a film that was sent.
+    fn has_taken(
+        &mut self,
+        sent: Result<Response<UploadReply>, Status>,
+        samples: u64,
+    ) -> Result<bool, Outcome> {
+        let Some(work) = &mut self.work else { return Ok(false) };
+        match sent {
+            Ok(reply) => {
+                let reply = reply.into_inner();
+                self.merged_end = reply.merged_end;
+                // In this order: what is saved need not be joined to what is not.
+                work.outbox.saved(reply.durable_end);
+                work.outbox.received(reply.generation);
+                Ok(true)
+            }
+            // To be sent again it would have to become another.
+            Err(status) if is_refused(&status) => {
+                work.outbox.discard();
+                self.tell(Event::LostSamples { samples, reason: "the master refuses them" });
+                let why = plain(status.message());
+                self.tell(Event::Trouble(format!("the master refuses samples: {why}")));
+                Ok(false)
+            }
+            Err(status) => Err(refusal(&status)),
+        }
     }
 
     /// Says good-bye. The master will notice anyhow.
     async fn leave(&self, client: &mut Client) {
         drop(answer(client.leave(LeaveRequest { slave: self.id() })).await);
     }
-}
-
-/// Fetches the scene, if it is not there, and loads it, with signs of life meanwhile.
-async fn load(
-    options: &Options,
-    loader: &Arc<dyn Loader>,
-    sink: &Sink,
-    client: &mut Client,
-    id: [u8; 16],
-    reply: &JoinReply,
-) -> Result<Scene, Outcome> {
-    let slave = Bytes::copy_from_slice(&id);
-    let hash = reply.pack_hash.clone();
-    let path = fetch::path_of(&options.cache, &hash);
-    if !fetch::is_cached(&path, &hash) {
-        sink(Event::Fetching { bytes: reply.pack_bytes });
-        let request = SceneRequest { slave: slave.clone(), pack_hash: hash.clone() };
-        let pieces = answer(client.fetch_scene(request)).await?;
-        let pack = fetch::receive(pieces, reply.pack_bytes, &hash).await.map_err(Outcome::Lost)?;
-        let kept = fetch::keep(&path, &pack);
-        kept.map_err(|error| Outcome::Broken(format!("cannot write {}: {error}", path.display())))?;
-    }
-    let overrides = reply.overrides.iter().map(|s| [s.option.clone(), s.name.clone(), s.value.clone()]);
-    let files = SceneFiles {
-        name: reply.scene.clone(),
-        pack: path,
-        settings_file: reply.settings_file.as_ref().map(|file| file.to_vec()),
-        overrides: overrides.collect(),
-    };
-    let loader = Arc::clone(loader);
-    let mut loading = tokio::task::spawn_blocking(move || loader.load(&files));
-    let mut reports = interval(crate::limits::REPORTS);
-    loop {
-        tokio::select! {
-            loaded = &mut loading => {
-                let loaded = loaded.map_err(|error| Outcome::Broken(error.to_string()))?;
-                return loaded.map_err(|why| Outcome::Refused(format!("the master's scene cannot be loaded: {why}")));
-            }
-            _ = reports.tick() => {
-                let report = ReportRequest { slave: slave.clone(), ..ReportRequest::default() };
-                if answer(client.report(report)).await?.order() == Order::Finish {
-                    return Err(Outcome::Finished);
-                }
-            }
-        }
-    }
-}
-
-/// The samples and units of a film, and the film as it travels.
-fn parcel_of(film: &SavedFilm) -> (u64, Run, Bytes) {
-    let blank = FilmRecord::default();
-    let record = film.record.as_ref().unwrap_or(&blank);
-    let mut bytes = vec![];
-    // To write to memory cannot fail, and what came out wrong the master would refuse.
-    drop(write_parcel(&mut bytes, &film.film, record));
-    let run = run_of(film).unwrap_or(Run { seed: 0, first: 0, end: 0 });
-    (record.samples, run, bytes.into())
-}
-
-/// A parcel in pieces, behind what says how long it is.
-fn parts(slave: Bytes, parcel: Bytes) -> impl Iterator<Item = UploadPart> + Send + 'static {
-    let start = Part::Start(UploadStart { slave, bytes: parcel.len() as u64 });
-    let pieces = (0..parcel.len())
-        .step_by(PIECE)
-        .map(move |from| Part::Data(parcel.slice(from..(from + PIECE).min(parcel.len()))));
-    std::iter::once(start).chain(pieces).map(|part| UploadPart { part: Some(part) })
 }

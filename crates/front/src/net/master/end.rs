@@ -3,6 +3,7 @@
 use super::{MasterRender, PULSE, say_added};
 use crate::messages::{Messages, count, say_saved};
 use indigo_film::SavedFilm;
+use indigo_net::master::Unsent;
 use indigo_render::{HaltReason, Progress};
 use std::time::{Duration, Instant};
 
@@ -18,7 +19,7 @@ pub struct Gathered {
     render: MasterRender,
     /// How far it came, with the last of the slaves' samples, and the time that they took to come.
     pub progress: Progress,
-    /// Whether fewer samples came than were asked for and rendered, since slaves are gone that had them.
+    /// Whether fewer samples came than were asked for and rendered; that was told.
     pub lacks_samples: bool,
 }
 
@@ -40,6 +41,13 @@ impl MasterRender {
         }
         self.tell_events(messages);
         let lacks_samples = *reason == HaltReason::Samples && !self.has_enough(false);
+        if let Some(what) = what_is_missing(self.master.unsent()) {
+            messages.warn(&what);
+        } else if lacks_samples {
+            messages.warn(
+                "fewer samples came than slaves had told of: go on with the film to have them all (-r)",
+            );
+        }
         Gathered { progress: self.progress(), lacks_samples, render: self }
     }
 
@@ -101,5 +109,39 @@ impl Gathered {
         }
         let is_saved = say_saved(&saved, messages);
         (film, is_saved)
+    }
+}
+
+/// What slaves had to send and have not sent, if anything.
+fn what_is_missing(unsent: Unsent) -> Option<String> {
+    let of = |n: usize, how: &str| {
+        let verb = if n == 1 { "is" } else { "are" };
+        (n > 0).then(|| format!("{} that {verb} {how}", count(n, "slave")))
+    };
+    let who: Vec<String> =
+        [of(unsent.here, "still there"), of(unsent.gone, "gone")].into_iter().flatten().collect();
+    let what =
+        if unsent.samples > 0 { format!("about {} samples", unsent.samples) } else { "samples".to_owned() };
+    (!who.is_empty()).then(|| {
+        format!(
+            "{} had {what} to send that did not come: go on with the film (-r) while they run, and they send them",
+            who.join(" and ")
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn who_has_not_sent_all_is_named() {
+        let said = |here, gone, samples| what_is_missing(Unsent { here, gone, samples }).unwrap_or_default();
+        assert_eq!(said(0, 0, 0), "");
+        assert!(said(1, 0, 70).starts_with("1 slave that is still there had about 70 samples to send"));
+        assert!(
+            said(2, 1, 9).starts_with("2 slaves that are still there and 1 slave that is gone had about 9")
+        );
+        assert!(said(1, 0, 0).starts_with("1 slave that is still there had samples to send"));
     }
 }

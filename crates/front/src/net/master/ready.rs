@@ -12,7 +12,7 @@ use crate::status::BAD_INPUT;
 use crate::{packs, paths, program};
 use indigo_film::SavedFilm;
 use indigo_net::key::Key;
-use indigo_net::limits::{PORT, SETTINGS};
+use indigo_net::limits::{PACK, PORT, SETTINGS};
 use indigo_net::master::{Master, SceneParcel, Setup};
 use indigo_net::slave::written;
 use indigo_render::disk::read_limited;
@@ -105,6 +105,12 @@ impl Ready {
 /// The scene as slaves get it.
 fn parcel(scene: &Scene, arguments: &Arguments) -> Result<SceneParcel, String> {
     let pack = packs::in_memory(&scene.output.scene_path, arguments)?;
+    if pack.len() as u64 > PACK {
+        let bytes = pack.len();
+        return Err(format!(
+            "the scene with its files has {bytes} bytes, packed; slaves take at most {PACK}"
+        ));
+    }
     let settings_file = paths::inifile()
         .map(|path| read_limited(Path::new(&path)).map_err(|error| format!("cannot read {path}: {error}")))
         .transpose()?;

@@ -97,9 +97,6 @@ impl Source for Many {
             messages.say(&words::waiting_for(&slaves));
         }
         let gathered = render.gather(reason, messages);
-        if gathered.lacks_samples {
-            messages.warn(words::LOST_LAST_SAMPLES);
-        }
         let progress = gathered.progress;
         (progress, gathered.save(messages).0)
     }
