@@ -34,6 +34,9 @@ pub const NAME: usize = 64;
 /// The most bytes of a packed scene that a slave takes: of no larger file is ever read.
 pub const PACK: u64 = 4 << 30;
 
+/// The most samples a second that a slave is believed to render.
+pub const FASTEST: f64 = 1e12;
+
 /// A peer that says nothing for so long is taken for gone.
 pub const SILENCE: Duration = Duration::from_secs(30);
 /// A slave whose connection broke so short a time ago is still expected back: it tries again after one second and three.

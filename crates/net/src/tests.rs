@@ -206,9 +206,21 @@ fn what_waits_is_counted_until_it_is_in_the_film() {
     // More than it has told of.
     bench.send(&mut client, parcel(&film(5, 9))).unwrap();
     assert_eq!(waits(&bench), (9, 0));
-    let report = ReportRequest { waiting_samples: u64::MAX, merged_end: 9, ..report };
+    let absurd = ReportRequest { waiting_samples: u64::MAX, merged_end: 9, ..report.clone() };
+    let status = bench.runtime.block_on(client.report(absurd)).unwrap_err();
+    assert_eq!(status.code(), Code::InvalidArgument);
+    bench.wait_for("the refusal", |event| {
+        matches!(event, Event::Refused { reason, .. } if reason.contains("more than a film can count"))
+    });
+    assert_eq!((waits(&bench), bench.master.status().slaves[0].errors), ((9, 0), 1));
+    let report = ReportRequest { waiting_samples: 70, merged_end: 9, ..report };
     bench.runtime.block_on(client.report(report.clone())).unwrap();
-    assert_eq!(waits(&bench), (9, u64::MAX));
+    assert_eq!(waits(&bench), (9, 70));
+    bench.master.begin_end();
+    bench.master.take_back_end();
+    let reply = bench.runtime.block_on(client.report(report.clone())).unwrap().into_inner();
+    assert_eq!(reply.order(), crate::proto::report_reply::Order::GoOn);
+    assert_eq!(waits(&bench), (9, 0), "it was not kept");
     let _again = bench.join();
     assert_eq!(waits(&bench), (9, 0), "what it has told of may have come");
     let period = |client: &mut FarmClient<Channel>| {
@@ -267,6 +279,8 @@ fn other_programs_are_told_why_they_cannot_join() {
     bench.assert_refused("Indigo of tomorrow");
     assert_eq!(refused(|request| request.protocol = PROTOCOL - 1).code(), Code::FailedPrecondition);
     assert_eq!(refused(|request| request.slave = Bytes::from_static(b"short")).code(), Code::InvalidArgument);
+    assert_eq!(refused(|request| request.threads = 0).code(), Code::InvalidArgument);
+    assert_eq!(refused(|request| request.threads = u32::MAX).code(), Code::InvalidArgument);
     // Two slaves with one seed would send the same samples.
     let _first = bench.join();
     let status = refused(|request| request.slave = Bytes::from_static(&[8; 16]));

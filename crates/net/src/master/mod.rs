@@ -2,6 +2,7 @@
 
 mod listen;
 mod refusals;
+mod reports;
 mod rooms;
 mod roster;
 mod service;
@@ -280,6 +281,13 @@ impl Master {
     /// Asks all slaves for the last of what they have. They leave when [`saved`](Self::saved) has told that it is in a file.
     pub fn begin_end(&self) {
         self.shared.is_ending.store(true, Ordering::Relaxed);
+    }
+
+    /// The render goes on after all, since samples that slaves had told of did not come. What those slaves tell of is not
+    /// counted on again: who has heard of the end leaves, and comes back as another.
+    pub fn take_back_end(&self) {
+        self.shared.roster().disbelieve();
+        self.shared.is_ending.store(false, Ordering::Relaxed);
     }
 
     /// Whether all that slaves have is in the film.

@@ -65,6 +65,8 @@ pub struct Slave {
     pub samples_per_second: f64,
     /// Samples that it has still to send, by its own account: of one that is lost, when it was heard of last.
     pub waiting: u64,
+    /// Whether that is counted on: what it told of has not failed to come.
+    pub is_believed: bool,
     /// Uploads that were added.
     pub uploads: u64,
     /// When the last of them came.
@@ -139,6 +141,7 @@ impl Roster {
             samples: 0,
             samples_per_second: 0.0,
             waiting: 0,
+            is_believed: true,
             uploads: 0,
             last_upload: None,
             errors: 0,
@@ -247,9 +250,17 @@ impl Roster {
         self.slaves.values().map(|slave| slave.samples_per_second).sum()
     }
 
-    /// Samples that those that are there have still to send, by their own account.
+    /// Nothing of what slaves hold has come in the time that there was: that is not counted on again.
+    pub fn disbelieve(&mut self) {
+        self.slaves
+            .values_mut()
+            .filter(|slave| slave.waiting > 0)
+            .for_each(|slave| slave.is_believed = false);
+    }
+
+    /// Samples that those that are there have still to send, by their own account, if it can be counted on.
     pub fn waiting(&self) -> u64 {
-        let there = self.slaves.values().filter(|slave| slave.presence.is_there());
+        let there = self.slaves.values().filter(|slave| slave.presence.is_there() && slave.is_believed);
         there.fold(0, |sum, slave| sum.saturating_add(slave.waiting))
     }
 }
@@ -319,6 +330,22 @@ mod tests {
         assert_eq!((roster.waiting(), roster.unsent()), (0, Unsent { here: 0, gone: 1, samples: 7 }));
         roster.join([1; 16], introduction(3, 1), now).unwrap();
         assert_eq!(roster.unsent().samples, 0, "it may have come meanwhile");
+    }
+
+    #[test]
+    fn who_did_not_keep_its_word_is_not_counted_on() {
+        let (mut roster, now) = (Roster::default(), Instant::now());
+        for (n, waiting) in [(1, 7), (2, 0)] {
+            roster.join([n; 16], introduction(n, n.into()), now).unwrap();
+            roster.heard(&[n; 16], now).unwrap().waiting = waiting;
+        }
+        assert_eq!(roster.waiting(), 7);
+        roster.disbelieve();
+        roster.heard(&[2; 16], now).unwrap().waiting = 5;
+        assert_eq!(roster.waiting(), 5, "the other had nothing to send, and is believed");
+        roster.join([1; 16], introduction(1, 1), now).unwrap();
+        roster.heard(&[1; 16], now).unwrap().waiting = 7;
+        assert_eq!(roster.waiting(), 5, "a new connection makes it no other");
     }
 
     #[test]

@@ -2,14 +2,14 @@
 
 use super::Shared;
 use super::listen::Peer;
-use super::roster::{Introduction, Presence, SlaveId};
+use super::reports::{Report, note};
+use super::roster::{Introduction, SlaveId};
 use crate::event::Event;
 use crate::ledger::{Receipt, Refusal, run_of};
 use crate::limits::{PIECE, PROTOCOL, REPORTS, REPORTS_NEAR_END, SILENCE, UPLOAD};
 use crate::plain::plain;
 use crate::proto::farm_server::Farm;
 use crate::proto::report_reply::Order;
-use crate::proto::report_request::State;
 use crate::proto::upload_part::Part;
 use crate::proto::{
     JoinReply, JoinRequest, LeaveReply, LeaveRequest, Piece, ReportReply, ReportRequest, SceneRequest,
@@ -18,6 +18,7 @@ use crate::proto::{
 use bytes::Bytes;
 use indigo_film::igi::{Parcel, parcel_size};
 use indigo_film::{Run, Share as _};
+use indigo_scene::schema::settings::MOST_THREADS;
 use std::net::{Ipv4Addr, SocketAddr};
 use std::pin::Pin;
 use std::sync::Arc;
@@ -45,6 +46,16 @@ impl Service {
         // It may hold what the caller has said, of whatever length.
         Status::new(status.code(), plain(status.message()))
     }
+
+    /// The same of a slave that has joined, for which it counts as an error.
+    fn refuse_slave(&self, peer: SocketAddr, id: &SlaveId, status: Status) -> Status {
+        let status = self.refuse(peer, status);
+        if let Some(slave) = self.shared.roster().known(id) {
+            slave.errors += 1;
+            slave.last_error = Some(status.message().to_owned());
+        }
+        status
+    }
 }
 
 /// The caller's address.
@@ -56,9 +67,6 @@ fn peer_of<T>(request: &Request<T>) -> SocketAddr {
 fn version(program: &str) -> &str {
     program.split(',').next().unwrap_or_default()
 }
-
-/// The most samples a second that a slave is believed to render.
-const FASTEST: f64 = 1e12;
 
 /// So many characters of what another program calls itself are shown.
 const SHOWN_PROGRAM: usize = 100;
@@ -112,6 +120,10 @@ impl Farm for Service {
             return Err(self.refuse(peer, Status::failed_precondition(what)));
         }
         let id = slave_id(&slave).map_err(|status| self.refuse(peer, status))?;
+        if !(1..=MOST_THREADS).contains(&(threads as usize)) {
+            let what = format!("a slave tells of {threads} threads; 1 to {MOST_THREADS} can be");
+            return Err(self.refuse(peer, Status::invalid_argument(what)));
+        }
         // Who has something left to send may come back for that.
         if shared.is_ending.load(Ordering::Relaxed) && !shared.roster().expects(&id) {
             return Err(Status::unavailable("the render is about to end"));
@@ -197,24 +209,20 @@ impl Farm for Service {
                 self.shared.roster().heard(&id, Instant::now());
                 Ok(Response::new(UploadReply { merged_end, durable_end, generation }))
             }
-            Err(status) => {
-                let status = self.refuse(peer, status);
-                if let Some(slave) = self.shared.roster().known(&id) {
-                    slave.errors += 1;
-                    slave.last_error = Some(status.message().to_owned());
-                }
-                Err(status)
-            }
+            Err(status) => Err(self.refuse_slave(peer, &id, status)),
         }
     }
 
     async fn report(&self, request: Request<ReportRequest>) -> Result<Response<ReportReply>, Status> {
-        let report = request.into_inner();
-        let id = slave_id(&report.slave)?;
+        let peer = peer_of(&request);
+        let said = request.into_inner();
+        let id = slave_id(&said.slave)?;
         // It lives, however long the film is busy.
         self.shared.roster().heard(&id, Instant::now()).ok_or_else(unknown)?;
+        let report =
+            Report::of(&said).map_err(|what| self.refuse_slave(peer, &id, Status::invalid_argument(what)))?;
         let shared = Arc::clone(&self.shared);
-        let noted = spawn_blocking(move || note(&shared, &id, &report));
+        let noted = spawn_blocking(move || note(&shared, &id, report));
         let durable_end = noted.await.map_err(failed)?.ok_or_else(unknown)?;
         let is_ending = self.shared.is_ending.load(Ordering::Relaxed);
         let order = if is_ending { Order::Finish } else { Order::GoOn };
@@ -258,26 +266,6 @@ impl Service {
         let shared = Arc::clone(shared);
         spawn_blocking(move || add(&shared, id, seed, &parcel)).await.map_err(failed)?
     }
-}
-
-/// Notes a slave's report; where its units end in the file. `None` if it has not joined.
-fn note(shared: &Shared, id: &SlaveId, report: &ReportRequest) -> Option<u64> {
-    let ledger = shared.ledger();
-    let mut roster = shared.roster();
-    let slave = roster.heard(id, Instant::now())?;
-    slave.presence = match report.state() {
-        State::Loading => Presence::Loading,
-        State::Rendering => Presence::Rendering,
-        State::Done => Presence::Done,
-    };
-    let rate = report.samples_per_second;
-    slave.samples_per_second = if rate.is_finite() { rate.clamp(0.0, FASTEST) } else { 0.0 };
-    let (merged_end, durable_end) = ledger.ends(slave.seed);
-    // What has come since it last heard of that would else count as waiting, too.
-    if report.merged_end == merged_end {
-        slave.waiting = report.waiting_samples;
-    }
-    Some(durable_end)
 }
 
 /// Adds a parcel to the film, and tells of it before anybody can copy that: what a file has is told of, whatever happens then.
