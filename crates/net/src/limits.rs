@@ -18,9 +18,9 @@ pub const SETTINGS: usize = MESSAGE / 2;
 pub const CONNECTIONS: usize = 256;
 /// The most calls at a time over a connection: a slave makes one after another, and reports meanwhile.
 pub const CALLS: u32 = 8;
-/// The most connections to the status page at a time.
+/// The most connections to the status page at a time. When there is one more another makes room.
 pub const VISITORS: usize = 64;
-/// A connection to the status page over which nothing comes or goes for so long ends.
+/// A connection to the status page over which no answer goes for so long ends: a question may take no longer, either.
 pub const PAGE_SILENCE: Duration = Duration::from_secs(10);
 /// So many films, as large as compressed ones can be, are what a master has room for beside its own. Those that are received
 /// at a time share it by their real lengths, so that many slow ones have their turn together; others wait.

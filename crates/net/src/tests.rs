@@ -460,7 +460,7 @@ fn the_status_page_shows_and_is_of_this_machine() {
     assert!(ask(&bench, "/status.json", "evil.example").starts_with("HTTP/1.1 403"));
 }
 
-/// More connections than there are places, over which nothing is said: the page comes back when they have run out of time.
+/// More connections than there are places, over which nothing is said: they make room, or run out of time.
 #[test]
 fn who_is_silent_leaves_the_status_page_to_others() {
     let bench = Bench::new(None);
@@ -470,6 +470,33 @@ fn who_is_silent_leaves_the_status_page_to_others() {
     assert!(ask(&bench, "/status.json", "localhost").starts_with("HTTP/1.1 200"));
     for mut stream in silent {
         assert_eq!(stream.read(&mut [0; 1]).ok(), Some(0), "closed by the master");
+    }
+    bench.join();
+}
+
+/// As many connections as there are places, over which a question comes that never ends: others need not wait for them, and they
+/// run out of time although they are never silent.
+#[test]
+fn who_never_ends_a_question_leaves_the_status_page_to_others() {
+    use crate::limits::{PAGE_SILENCE, VISITORS};
+    let bench = Bench::new(None);
+    let page = bench.master.page().expect("there is one");
+    let drip = |_| {
+        let mut stream = TcpStream::connect(page).expect("it listens");
+        stream.write_all(b"GET / HTTP/1.1\r\nHost: localhost\r\nX: ").map(|()| stream)
+    };
+    let mut drips = (0..VISITORS).map(drip).collect::<Result<Vec<_>, _>>().expect("it listens");
+    let began = Instant::now();
+    assert!(ask(&bench, "/status.json", "localhost").starts_with("HTTP/1.1 200"));
+    assert!(began.elapsed() < PAGE_SILENCE / 2, "it does not wait until others have run out of time");
+    bench.wait_for(
+        "who made room",
+        |event| matches!(event, Event::Refused { reason, .. } if reason.contains("made room for others")),
+    );
+    while !drips.is_empty() {
+        assert!(began.elapsed() < 2 * PAGE_SILENCE, "{} are still there", drips.len());
+        drips.retain_mut(|stream| stream.write_all(b"x").is_ok());
+        std::thread::sleep(Duration::from_millis(100));
     }
     bench.join();
 }

@@ -386,8 +386,13 @@ fn show(
     let failed = |source| NetError::Page { address, source };
     let listener = runtime.block_on(page::listen(address)).map_err(failed)?;
     let address = listener.local_addr().map_err(failed)?;
-    let (asked, told) = (Arc::clone(shared), Arc::clone(shared));
-    let view = View { status: Arc::new(move || Status::of(&asked)), picture, read: Arc::default() };
+    let [asked, refusing, told] = [(); 3].map(|()| Arc::clone(shared));
+    let view = View {
+        status: Arc::new(move || Status::of(&asked)),
+        picture,
+        read: Arc::default(),
+        refuse: Arc::new(move |peer, reason| refusing.refused(peer, reason)),
+    };
     runtime.spawn(async move {
         if let Err(error) = page::serve(listener, view).await {
             told.tell(Event::Trouble(format!("the status page has ended: {error}")));
