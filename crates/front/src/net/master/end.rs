@@ -111,8 +111,10 @@ impl Gathered {
         }
         let mut film = render.copy(messages);
         let mut saved = render.job().save(&film);
-        if saved.written.contains(&render.job().paths.igi())
-            && let Some(record) = film.record.clone()
+        let is_written = saved.written.contains(&render.job().paths.igi());
+        if let Some(record) = film.record.clone()
+            // Where there are none, none can be lost.
+            && (is_written || record.samples == 0)
         {
             let runs = record.runs.clone();
             render.master.saved(record);
