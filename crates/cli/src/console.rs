@@ -6,7 +6,7 @@ use indigo_front::paths::utc;
 use indigo_net::event::{Event, Field, Weight};
 use indigo_render::Progress;
 use std::fs::{File, OpenOptions};
-use std::io::{IsTerminal, Write};
+use std::io::{IsTerminal, Read as _, Write};
 use std::path::Path;
 use std::time::{Duration, Instant, SystemTime};
 
@@ -85,8 +85,14 @@ impl Console {
     /// From now on writes everything to a file as a line of JSON each, too.
     ///
     /// # Errors
-    /// What the system says: whoever asks for such a log wants to read it.
+    /// What the system says: whoever asks for such a log wants to read it. And where something else is there, a key or a scene,
+    /// to which nothing may be appended.
     pub fn log_json_to(&mut self, path: &Path) -> std::io::Result<()> {
+        if !may_be_json_log(path)? {
+            return Err(std::io::Error::other(
+                "this is another file, and no log to append to; give another name",
+            ));
+        }
         self.json_log = Some(OpenOptions::new().create(true).append(true).open(path)?);
         Ok(())
     }
@@ -251,6 +257,16 @@ impl Messages for Console {
         };
         self.write(level, &text, &message, &fields);
     }
+}
+
+/// Whether what is there is nothing yet, a log as this one writes it, or no file that keeps anything.
+fn may_be_json_log(path: &Path) -> std::io::Result<bool> {
+    if !std::fs::metadata(path).is_ok_and(|meta| meta.is_file()) {
+        return Ok(true);
+    }
+    let mut first = [0];
+    let length = File::open(path)?.read(&mut first)?;
+    Ok(length == 0 || first == *b"{")
 }
 
 /// A message without colour codes.
