@@ -7,7 +7,7 @@ use indigo_net::event::{Event, Field, Weight};
 use indigo_render::Progress;
 use std::fs::{File, OpenOptions};
 use std::io::{IsTerminal, Read as _, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime};
 
 /// Time between lines of progress in logs, while a terminal has its line renewed several times a second.
@@ -45,9 +45,9 @@ impl Level {
 pub struct Console {
     verbosity: Verbosity,
     /// The log in plain text.
-    log: Option<File>,
+    log: Option<Log>,
     /// The log as a line of JSON for each message.
-    json_log: Option<File>,
+    json_log: Option<Log>,
     /// Whether errors and warnings are written to standard output as a line of JSON each.
     json: bool,
     terminal: bool,
@@ -77,7 +77,7 @@ impl Console {
     /// From now on writes everything to a file, too; a file that cannot be written costs a warning.
     pub fn log_to(&mut self, path: &Path) {
         match OpenOptions::new().create(true).append(true).open(path) {
-            Ok(file) => self.log = Some(file),
+            Ok(file) => self.log = Some(Log::new(path, file)),
             Err(error) => self.warn(&format!("no log is kept: {}: {error}", path.display())),
         }
     }
@@ -93,7 +93,7 @@ impl Console {
                 "this is another file, and no log to append to; give another name",
             ));
         }
-        self.json_log = Some(OpenOptions::new().create(true).append(true).open(path)?);
+        self.json_log = Some(Log::new(path, OpenOptions::new().create(true).append(true).open(path)?));
         Ok(())
     }
 
@@ -124,26 +124,35 @@ impl Console {
     /// Writes a message of one or more lines; the logs have what the console passes over. `fields` are more of a line
     /// of JSON, each behind a comma.
     fn write(&mut self, level: Level, text: &str, message: &str, fields: &str) {
-        // Nobody is left to be told if standard error or a log fails.
+        // Nobody is left to be told if standard error fails.
         if level.least() <= self.verbosity {
             self.wipe();
             drop(writeln!(std::io::stderr(), "{text}"));
         }
-        if let Some(log) = self.log.as_mut().filter(|_| level.least() <= self.verbosity.max(Verbosity::Usual))
-        {
-            drop(writeln!(log, "{}", without_escapes(text)));
+        if level.least() <= self.verbosity.max(Verbosity::Usual) {
+            self.write_log(text);
         }
         self.write_json(level.name(), message, fields);
     }
 
+    fn write_log(&mut self, text: &str) {
+        let failure = self.log.as_mut().and_then(|log| log.write(&without_escapes(text)));
+        self.tell_failure(failure);
+    }
+
     fn write_json(&mut self, level: &str, message: &str, fields: &str) {
-        if let Some(log) = &mut self.json_log {
+        let failure = self.json_log.as_mut().and_then(|log| {
             let time = utc(SystemTime::now());
             let message = quoted(message);
-            let line =
-                format!("{{\"time\":\"{time}\",\"level\":\"{level}\",\"message\":{message}{fields}}}\n");
-            // In one piece: others may append to the same file.
-            drop(log.write_all(line.as_bytes()));
+            log.write(&format!("{{\"time\":\"{time}\",\"level\":\"{level}\",\"message\":{message}{fields}}}"))
+        });
+        self.tell_failure(failure);
+    }
+
+    /// Says what is wrong with a log, which it tells but once.
+    fn tell_failure(&mut self, failure: Option<String>) {
+        if let Some(failure) = failure {
+            self.warn(&failure);
         }
     }
 
@@ -194,9 +203,7 @@ impl Console {
 
     fn log_progress(&mut self, p: &Progress, text: &str) {
         self.last_logged = Some(Instant::now());
-        if let Some(log) = &mut self.log {
-            drop(writeln!(log, "{text}"));
-        }
+        self.write_log(text);
         let error = p.relative_error.map(|e| format!(",\"relative_error\":{e}")).unwrap_or_default();
         let fields = format!(
             ",\"samples\":{},\"samples_per_pixel\":{},\"samples_per_second\":{},\"elapsed_s\":{}{error}",
@@ -256,6 +263,35 @@ impl Messages for Console {
             Weight::Warning => (Level::Warning, format!("warning: {message}")),
         };
         self.write(level, &text, &message, &fields);
+    }
+}
+
+/// A file that lines are appended to.
+struct Log {
+    path: PathBuf,
+    file: File,
+    /// Whether it was told that lines do not reach it.
+    has_failed: bool,
+    /// Whether the last line may have reached it in part.
+    is_torn: bool,
+}
+
+impl Log {
+    fn new(path: &Path, file: File) -> Self {
+        Self { path: path.to_path_buf(), file, has_failed: false, is_torn: false }
+    }
+
+    /// Appends a text as lines of their own; what is to be said where that fails for the first time. It is tried again with the
+    /// next: a full disk may have room later.
+    fn write(&mut self, text: &str) -> Option<String> {
+        let start = if self.is_torn { "\n" } else { "" };
+        // In one piece: others may append to the same file.
+        let written = self.file.write_all(format!("{start}{text}\n").as_bytes());
+        self.is_torn = written.is_err();
+        let is_first = !self.has_failed;
+        self.has_failed |= self.is_torn;
+        let error = written.err().filter(|_| is_first)?;
+        Some(format!("the log lacks lines from now on: {}: {error}", self.path.display()))
     }
 }
 

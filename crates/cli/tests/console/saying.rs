@@ -52,6 +52,18 @@ fn a_log_of_json_has_a_line_for_each_message() {
     assert!(nowhere.stderr.contains("no log can be kept"), "{}", nowhere.stderr);
 }
 
+/// `/dev/full` takes nothing, like a full disk: that is told once, and the picture is rendered.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_log_that_cannot_be_written_is_told_of_once() {
+    let bench = Workbench::new(QUIET);
+    let ran = bench.run(&["scene.igs", "-haltspp", "2", "-o", "a.png", "--log-json", "/dev/full"]);
+    assert_eq!(ran.status, Some(0), "{ran:?}");
+    let told = "warning: the log lacks lines from now on: /dev/full: ";
+    assert_eq!(ran.stderr.matches(told).count(), 1, "{}", ran.stderr);
+    assert!(bench.path("a.png").exists());
+}
+
 /// Of files that are no logs nothing is appended to, whatever their names are: a key would be none any more.
 #[test]
 fn a_log_is_not_appended_to_another_file() {
