@@ -228,6 +228,21 @@ fn scenes_are_fetched_once() {
     assert_eq!(farm.text("slave2.json").matches("\"event\":\"fetching\"").count(), 0);
 }
 
+/// A scene that cannot be kept is rendered all the same.
+#[test]
+fn a_slave_needs_no_cache() {
+    let mut farm = Farm::new("");
+    farm.start_master("m", &[]);
+    farm.bench.wrapper = ["env", "INDIGO_CACHE=/dev/null"].map(str::to_owned).into();
+    let mut slave = farm.slave(1, farm.port);
+    farm.wait_for_uploads(1, 1);
+    let said = farm.text("slave1.stderr");
+    assert!(said.contains("warning: the scene cannot be kept: /dev/null/packs/"), "{said}");
+    assert!(said.contains("the variable INDIGO_CACHE may name another folder"), "{said}");
+    farm.end_master();
+    leave(&mut slave);
+}
+
 #[test]
 fn without_the_key_there_is_no_joining() {
     let mut farm = Farm::new("");
