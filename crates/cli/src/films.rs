@@ -5,7 +5,7 @@ use crate::{refuse_scene, tell_findings};
 use indigo_front::flags::Arguments;
 use indigo_front::load::with_load_options;
 use indigo_front::messages::{Messages as _, say_saved};
-use indigo_front::prepare::{denoiser, overwrites, say_missing_folder};
+use indigo_front::prepare::{denoiser, overwrites, reads_too, say_missing_folder};
 use indigo_front::status::{BAD_INPUT, FAILED, RENDERED};
 use indigo_front::{logical_cores, paths, program};
 use indigo_render::output::{OutputPaths, SaveJob, write_film};
@@ -17,6 +17,14 @@ use std::path::{Path, PathBuf};
 /// Adds films; the exit status.
 pub fn merge(arguments: &Arguments, console: &mut Console) -> u8 {
     let paths: Vec<PathBuf> = arguments.files.iter().map(PathBuf::from).collect();
+    let output = arguments.output.as_ref().map(PathBuf::from);
+    if let Some(film) = reads_too(output, &paths) {
+        console.error(&format!(
+            "-merge reads {}, which would be overwritten: give the sum another name",
+            film.display()
+        ));
+        return BAD_INPUT;
+    }
     let sum = match merge_films(&paths) {
         Ok(sum) => sum,
         Err(error) => return fail(&error, console),

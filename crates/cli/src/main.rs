@@ -33,7 +33,10 @@ fn main() -> ExitCode {
     }
     let arguments = match flags::parse(std::env::args_os().skip(1)) {
         Ok(arguments) => arguments,
-        Err(message) => return ExitCode::from(refuse(&message, &mut Console::new(Verbosity::Usual))),
+        Err(message) => {
+            let json = flags::wants_json(std::env::args_os().skip(1));
+            return ExitCode::from(refuse(&message, &mut Console::new(Verbosity::Usual).with_json(json)));
+        }
     };
     let mut console = Console::new(arguments.verbosity).with_json(arguments.json);
     interrupts::catch(&mut console);

@@ -8,6 +8,7 @@ use indigo_front::flags::Arguments;
 use indigo_front::messages::Messages as _;
 use indigo_front::net::master::{Gathered, MasterRender, get_ready};
 use indigo_front::net::slave::SlaveRender;
+use indigo_front::prepare::say_missing_folder;
 use indigo_front::status::{FAILED, RENDERED};
 use indigo_render::{HaltReason, Progress};
 use indigo_scene::Scene;
@@ -23,6 +24,7 @@ const LINES_OF_SLAVES: [Duration; 2] = [Duration::from_millis(250), Duration::fr
 
 /// Makes a key; the exit status.
 pub fn make_key(path: &Path, console: &mut Console) -> u8 {
+    say_missing_folder(path, console);
     match indigo_front::net::make_key(path) {
         Ok(()) => {
             console.say(&format!(

@@ -577,6 +577,10 @@ fn who_is_refused_goes_on_to_the_next_master() {
     };
     assert!(matches!(joined(&mut life, &places[..1]), Err(Outcome::Refused(_))));
     assert_eq!(joined(&mut life, &places).ok(), Some(Some(places[1])));
+    // Something else listens there.
+    let page = ours.master.page().expect("there is one");
+    let Err(Outcome::Lost(why)) = joined(&mut life, &[page]) else { panic!("a page is no master") };
+    assert!(why.contains(&format!("no render master answers at {page}")), "{why}");
     // One that let it in, and had a scene that could not be loaded.
     life.turn_down(places[1]);
     let twins = Bench::new(None);

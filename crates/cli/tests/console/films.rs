@@ -82,6 +82,10 @@ fn independent_renders_add_up() {
     assert_eq!(sum, expected);
     ok(&bench.run(&["scene.igs", "-haltspp", "7", "-r", "sum.igi", "-o", "on.png"]));
     assert_eq!(samples(&film(&bench, "on.igi")), 40 * 30 * 7);
+    let before = std::fs::read(bench.path("1.igi")).expect("the film");
+    let ran = bench.run(&["--merge", "./1.igi", "2.igi", "-o", "1.igi"]);
+    assert!(ran.status == Some(2) && ran.stderr.contains("would be overwritten"), "{ran:?}");
+    assert!(std::fs::read(bench.path("1.igi")).expect("the film") == before);
     for (films, says) in [
         (["1.igi", "1.igi"], "would count twice"),
         (["1.igi", "sum.igi"], "seed 1"),

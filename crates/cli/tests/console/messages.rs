@@ -97,6 +97,20 @@ fn a_fraction_of_a_sample_is_rounded_up_and_said() {
     assert!(told.contains("{\"key\":\"samples_per_pixel\",\"value\":\"2.00000\"}\n"), "{told}");
 }
 
+/// What is no halting condition is not taken for one without a word.
+#[test]
+fn a_halt_that_is_none_is_told() {
+    let bench = Workbench::new("<logging>false</logging>");
+    for halt in [["-halt", "0"], ["-halt", "-1"]] {
+        let ran = bench.run(&[&["scene.igs", "-haltspp", "1", "-o", "a.png"], &halt[..]].concat());
+        assert_eq!(ran.status, Some(0), "{ran:?}");
+        assert!(ran.stderr.contains(&format!("note: {} {} is never", halt[0], halt[1])), "{}", ran.stderr);
+    }
+    let ran = bench.run(&["scene.igs", "-haltspp", "0", "-halt", "0.1", "-o", "a.png"]);
+    assert_eq!(ran.status, Some(0), "{ran:?}");
+    assert!(ran.stderr.contains("note: -haltspp 0 is never"), "{}", ran.stderr);
+}
+
 /// Every line is JSON, the last one a summary.
 #[test]
 fn json_is_complete() {
@@ -137,6 +151,7 @@ fn json_tells_of_every_failure() {
         &["--ptest", "nowhere.igs"],
         &["bad.pigs", "-o", "a.png"],
         &["scene.igs", "-haltspp", "1", "-r", "nowhere.igi"],
+        &["scene.igs", "-nosuchoption"],
     ] {
         let ran = bench.run(&[arguments, &["--json"]].concat());
         assert!(matches!(ran.status, Some(1 | 2)), "{arguments:?}: {ran:?}");

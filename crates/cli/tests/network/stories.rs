@@ -272,6 +272,9 @@ fn without_the_key_there_is_no_joining() {
     // One that cannot be written leaves nothing, and so can be tried again.
     let full = farm.bench.run_limited(0, &["--make-key", "half"]);
     assert!(full.status == Some(1) && !farm.bench.path("half").exists(), "{full:?}");
+    // Folders are made, as for all that is written.
+    let made = farm.bench.run(&["--make-key", "new/folder/key"]);
+    assert!(made.status == Some(0) && farm.bench.path("new/folder/key").exists(), "{made:?}");
     // A key is never written over.
     let again = farm.bench.run(&["--make-key", "key"]);
     assert_eq!(again.status, Some(1), "{again:?}");
