@@ -1,6 +1,6 @@
 //! What the user sees: messages, and a progress line that renews itself on a terminal; and the logs that keep it.
 
-use indigo_diag::{Diagnostic, Severity, SourceMap, Style, quoted, to_json, to_text};
+use indigo_diag::{Diagnostic, Severity, SourceMap, Style, quoted, shown, to_json, to_text};
 use indigo_front::messages::{Messages, Verbosity, clock, scaled};
 use indigo_front::paths::utc;
 use indigo_net::event::{Event, Field, Weight};
@@ -121,7 +121,17 @@ impl Console {
         self.verbosity = verbosity;
     }
 
-    /// Writes a message of one or more lines; the logs have what the console passes over. `fields` are more of a line
+    /// Writes a message, in which there may be names of whatever files.
+    fn tell(&mut self, level: Level, message: &str, fields: &str) {
+        let word = match level {
+            Level::Error => "error: ",
+            Level::Warning => "warning: ",
+            Level::Info | Level::Detail => "",
+        };
+        self.write(level, &format!("{word}{}", shown(message)), message, fields);
+    }
+
+    /// Writes a message of one or more lines, which a terminal may have as they are; the logs have what the console passes over. `fields` are more of a line
     /// of JSON, each behind a comma.
     fn write(&mut self, level: Level, text: &str, message: &str, fields: &str) {
         // Nobody is left to be told if standard error fails.
@@ -234,20 +244,20 @@ impl Console {
 impl Messages for Console {
     fn error(&mut self, message: &str) {
         self.write_for_programs(&Diagnostic::error("", None, message));
-        self.write(Level::Error, &format!("error: {message}"), message, "");
+        self.tell(Level::Error, message, "");
     }
 
     fn warn(&mut self, message: &str) {
         self.write_for_programs(&Diagnostic::warning("", None, message));
-        self.write(Level::Warning, &format!("warning: {message}"), message, "");
+        self.tell(Level::Warning, message, "");
     }
 
     fn say(&mut self, message: &str) {
-        self.write(Level::Info, message, message, "");
+        self.tell(Level::Info, message, "");
     }
 
     fn detail(&mut self, message: &str) {
-        self.write(Level::Detail, message, message, "");
+        self.tell(Level::Detail, message, "");
     }
 
     fn event(&mut self, event: &Event) {
@@ -257,12 +267,12 @@ impl Messages for Console {
             Field::Number(number) => format!(",\"{name}\":{number}"),
         });
         let fields = format!(",\"event\":\"{}\"{}", event.kind(), values.collect::<String>());
-        let (level, text) = match event.weight() {
-            Weight::Detail => (Level::Detail, message.clone()),
-            Weight::Info => (Level::Info, message.clone()),
-            Weight::Warning => (Level::Warning, format!("warning: {message}")),
+        let level = match event.weight() {
+            Weight::Detail => Level::Detail,
+            Weight::Info => Level::Info,
+            Weight::Warning => Level::Warning,
         };
-        self.write(level, &text, &message, &fields);
+        self.tell(level, &message, &fields);
     }
 }
 
