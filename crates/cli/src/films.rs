@@ -2,6 +2,7 @@
 
 use crate::console::Console;
 use crate::{refuse_scene, tell_findings};
+use indigo_front::claim::Claim;
 use indigo_front::flags::Arguments;
 use indigo_front::load::with_load_options;
 use indigo_front::messages::{Messages as _, say_saved};
@@ -36,6 +37,10 @@ pub fn merge(arguments: &Arguments, console: &mut Console) -> u8 {
         return BAD_INPUT;
     };
     say_missing_folder(Path::new(output), console);
+    let _claim = match Claim::for_moment(Path::new(output), console) {
+        Ok(claim) => claim,
+        Err(status) => return status,
+    };
     match with_jobs(logical_cores(), || write_film(Path::new(output), &sum.film, record)) {
         Ok(path) => {
             let spp = record.samples as f64 / sum.film.size.pixels() as f64;
@@ -127,6 +132,10 @@ pub fn tone_map(arguments: &Arguments, console: &mut Console) -> u8 {
         return BAD_INPUT;
     }
     say_missing_folder(&job.paths.png, console);
+    let _claim = match Claim::for_moment(&job.paths.igi(), console) {
+        Ok(claim) => claim,
+        Err(status) => return status,
+    };
     if say_saved(&job.save_developed(developed), console) { RENDERED } else { FAILED }
 }
 
