@@ -51,6 +51,12 @@ pub const HANDSHAKE: Duration = Duration::from_secs(10);
 pub const ANSWER: Duration = Duration::from_secs(30);
 /// How long an upload may take, however slow the network.
 pub const UPLOAD: Duration = Duration::from_mins(30);
+/// Who waits so long for room makes one of those give up theirs that take it and send less than [`LEAST_RATE`].
+pub const PATIENCE: Duration = Duration::from_secs(2);
+/// The least bytes a second of an upload that others wait for, on the average: an eighth of a megabit, as poor lines have.
+pub const LEAST_RATE: u64 = 16 << 10;
+/// How long an upload may be slower than that at first: networks stand still for seconds.
+pub const RUN_UP: Duration = Duration::from_secs(10);
 /// Time between a slave's reports.
 pub const REPORTS: Duration = Duration::from_secs(2);
 /// The same when a number of samples is about to be reached: what is rendered between two of them may be too many.

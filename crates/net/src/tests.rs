@@ -21,6 +21,7 @@ use std::net::{SocketAddr, TcpStream};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 use tokio::runtime::Runtime;
+use tokio_stream::StreamExt as _;
 use tonic::transport::Channel;
 use tonic::{Code, Status};
 
@@ -458,6 +459,41 @@ fn the_status_page_shows_and_is_of_this_machine() {
     assert!(page.contains("<!doctype html>") && page.contains("content-security-policy: default-src 'none'"));
     assert!(ask(&bench, "/picture.png", "localhost").starts_with("HTTP/1.1 404"), "none has been saved");
     assert!(ask(&bench, "/status.json", "evil.example").starts_with("HTTP/1.1 403"));
+}
+
+/// Slaves that open more uploads than there is room for, and give a byte now and then, are never silent: they make room for one
+/// that sends.
+#[test]
+fn who_drips_does_not_keep_others_from_the_film() {
+    let bench = Bench::new(None);
+    let drip = |slave: [u8; 16], mut client: FarmClient<Channel>| async move {
+        let start = UploadStart { slave: Bytes::copy_from_slice(&slave), bytes: 1 << 20 };
+        let drops = tokio_stream::iter(0..).then(|_| async {
+            tokio::time::sleep(Duration::from_secs(1)).await;
+            Part::Data(Bytes::from_static(b"."))
+        });
+        let parts = tokio_stream::iter([Part::Start(start)]).chain(drops);
+        client.upload(parts.map(|part| UploadPart { part: Some(part) })).await
+    };
+    let mut drips = vec![];
+    for n in [1, 2] {
+        let mut client = bench.connect();
+        let slave = Bytes::from(vec![n; 16]);
+        bench.join_as(&mut client, JoinRequest { slave, seed: n.into(), ..request() }).expect("it may join");
+        drips.extend((0..6).map(|_| bench.runtime.spawn(drip([n; 16], client.clone()))));
+    }
+    let (mut client, _) = bench.join();
+    // Until they have what room there is.
+    bench.runtime.block_on(async { tokio::time::sleep(Duration::from_secs(3)).await });
+    let began = Instant::now();
+    assert_eq!(bench.send(&mut client, parcel(&film(0, 5))).map(|reply| reply.merged_end).ok(), Some(5));
+    assert!(began.elapsed() < Duration::from_mins(1), "{:?}", began.elapsed());
+    bench.wait_for(
+        "who made room",
+        |event| matches!(event, Event::Refused { reason, .. } if reason.contains("makes room for others")),
+    );
+    assert_eq!(bench.master.status().samples, 5);
+    drips.iter().for_each(tokio::task::JoinHandle::abort);
 }
 
 /// More connections than there are places, over which nothing is said: they make room, or run out of time.

@@ -7,6 +7,7 @@ mod rooms;
 mod roster;
 mod service;
 mod status;
+mod uploads;
 
 pub use roster::{Presence, Unsent};
 pub use status::{OwnStatus, SlaveStatus, Status};

@@ -4,9 +4,10 @@ use super::Shared;
 use super::listen::Peer;
 use super::reports::{Report, note};
 use super::roster::{Introduction, SlaveId};
+use super::uploads::{Bounds, gather, next};
 use crate::event::Event;
 use crate::ledger::{Receipt, Refusal, run_of};
-use crate::limits::{PIECE, PROTOCOL, REPORTS, REPORTS_NEAR_END, SILENCE, UPLOAD};
+use crate::limits::{PIECE, PROTOCOL, REPORTS, REPORTS_NEAR_END};
 use crate::plain::plain;
 use crate::proto::farm_server::Farm;
 use crate::proto::report_reply::Order;
@@ -23,10 +24,9 @@ use std::net::{Ipv4Addr, SocketAddr};
 use std::pin::Pin;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 use tokio::task::spawn_blocking;
-use tokio::time::timeout;
-use tokio_stream::{Stream, StreamExt as _, iter};
+use tokio_stream::{Stream, iter};
 use tonic::{Request, Response, Status, Streaming};
 
 /// Answers calls.
@@ -258,11 +258,11 @@ impl Service {
             return Err(Status::resource_exhausted(what));
         }
         let mut parcel = shared.rooms.take(start.bytes).await.map_err(failed)?;
-        gather(&mut parcel, start.bytes, UPLOAD, stream, |bytes| {
+        let came = |bytes| {
             shared.bytes_received.fetch_add(bytes, Ordering::Relaxed);
             shared.roster().heard(&id, Instant::now());
-        })
-        .await?;
+        };
+        gather(&mut parcel, start.bytes, Bounds::new(|| shared.rooms.must_give_up()), stream, came).await?;
         let shared = Arc::clone(shared);
         spawn_blocking(move || add(&shared, id, seed, &parcel)).await.map_err(failed)?
     }
@@ -305,71 +305,4 @@ fn credit(shared: &Shared, id: &SlaveId, samples: u64, receipt: &Receipt) -> Str
         slave.last_upload = Some(Instant::now());
     }
     slave.name.clone()
-}
-
-/// Gathers the parts of an upload behind its beginning, within a time, and tells of the bytes of each.
-async fn gather(
-    parcel: &mut Vec<u8>,
-    length: u64,
-    time: Duration,
-    mut parts: impl Stream<Item = Result<UploadPart, Status>> + Unpin,
-    came: impl Fn(u64),
-) -> Result<(), Status> {
-    let gathered = async {
-        while let Some(part) = next(&mut parts).await? {
-            let Part::Data(data) = part else {
-                return Err(Status::invalid_argument("an upload has one beginning"));
-            };
-            if (parcel.len() + data.len()) as u64 > length {
-                return Err(Status::resource_exhausted("an upload is longer than it says"));
-            }
-            parcel.extend_from_slice(&data);
-            came(data.len() as u64);
-        }
-        if (parcel.len() as u64) < length {
-            return Err(Status::data_loss("an upload is shorter than it says"));
-        }
-        Ok(())
-    };
-    // Who gives little each time holds room that others wait for.
-    let late = |_| Err(Status::deadline_exceeded("an upload takes too long"));
-    timeout(time, gathered).await.unwrap_or_else(late)
-}
-
-/// The next part of an upload, within a time.
-async fn next(
-    parts: &mut (impl Stream<Item = Result<UploadPart, Status>> + Unpin),
-) -> Result<Option<Part>, Status> {
-    match timeout(SILENCE, parts.next()).await {
-        Ok(Some(Ok(UploadPart { part: Some(part) }))) => Ok(Some(part)),
-        Ok(Some(Ok(UploadPart { part: None }))) => {
-            Err(Status::invalid_argument("an upload has an empty part"))
-        }
-        Ok(Some(Err(status))) => Err(status),
-        Ok(None) => Ok(None),
-        Err(_) => Err(Status::deadline_exceeded("an upload has stopped in its midst")),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use tokio::time::sleep;
-
-    /// Who gives a little each time, so that it is never silent, does not hold its room for ever.
-    #[test]
-    fn an_upload_has_its_time() {
-        let clock = tokio::runtime::Builder::new_current_thread().enable_time().build();
-        clock.expect("a clock").block_on(async {
-            let drops = iter(0..).then(|_| async {
-                sleep(Duration::from_millis(5)).await;
-                Ok(UploadPart { part: Some(Part::Data(Bytes::from_static(b"."))) })
-            });
-            let (mut parcel, time) = (vec![], Duration::from_millis(200));
-            let gathered = gather(&mut parcel, u64::MAX, time, Box::pin(drops), |bytes| assert_eq!(bytes, 1));
-            let status = gathered.await.expect_err("it never ends");
-            assert!(status.message().contains("takes too long"), "{status}");
-            assert!(parcel.len() > 1, "it was not silent");
-        });
-    }
 }
