@@ -283,7 +283,9 @@ fn other_programs_are_told_why_they_cannot_join() {
     assert_eq!(refused(|request| request.threads = 0).code(), Code::InvalidArgument);
     assert_eq!(refused(|request| request.threads = u32::MAX).code(), Code::InvalidArgument);
     // Two slaves with one seed would send the same samples.
-    let _first = bench.join();
+    let (mut first, _) = bench.join();
+    let second = JoinRequest { slave: Bytes::from_static(&[8; 16]), seed: SEED + 5, ..request() };
+    assert_eq!(bench.join_as(&mut first, second).unwrap_err().code(), Code::ResourceExhausted);
     let status = refused(|request| request.slave = Bytes::from_static(&[8; 16]));
     assert_eq!(status.code(), Code::AlreadyExists);
     assert!(status.message().contains("seed 42"), "{status}");

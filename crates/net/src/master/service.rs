@@ -3,7 +3,7 @@
 use super::Shared;
 use super::listen::Peer;
 use super::reports::{Report, note};
-use super::roster::{Introduction, SlaveId};
+use super::roster::{Introduction, SlaveId, Unwelcome};
 use super::uploads::{Bounds, gather, next};
 use crate::event::Event;
 use crate::ledger::{Receipt, Refusal, run_of};
@@ -78,7 +78,9 @@ fn slave_id(bytes: &[u8]) -> Result<SlaveId, Status> {
 
 /// What somebody is told whom the master does not know, since it was started anew or has heard nothing for long.
 fn unknown() -> Status {
-    Status::not_found("this slave has not joined")
+    Status::not_found(
+        "the master does not know this slave: it was started anew, or has heard nothing for long",
+    )
 }
 
 /// What somebody is told when a thread of the master's has failed.
@@ -137,7 +139,13 @@ impl Farm for Service {
         }
         let introduction = Introduction { name: &name, peer, seed, threads };
         let joined = shared.roster().join(id, introduction, Instant::now()).map(|slave| slave.name.clone());
-        let slave = joined.map_err(|reason| self.refuse(peer, Status::already_exists(reason)))?;
+        let slave = joined.map_err(|why| {
+            let status = match why {
+                Unwelcome::Taken(what) => Status::already_exists(what),
+                Unwelcome::Full(what) => Status::resource_exhausted(what),
+            };
+            self.refuse(peer, status)
+        })?;
         let ((merged_end, durable_end), generation) = {
             let shared = Arc::clone(shared);
             let known = spawn_blocking(move || {

@@ -36,6 +36,7 @@ pub fn refusal(status: &Status) -> Outcome {
         Code::FailedPrecondition | Code::AlreadyExists | Code::InvalidArgument | Code::Unimplemented => {
             Outcome::Refused(format!("the master refuses: {message}"))
         }
+        _ if is_refused(status) => Outcome::Refused(format!("the master refuses: {message}")),
         _ => Outcome::Lost(format!("the connection to the master is lost: {message}")),
     }
 }
