@@ -41,7 +41,7 @@ impl Service {
     }
 
     /// Turns a caller away, and tells of it.
-    fn refuse(&self, peer: SocketAddr, status: Status) -> Status {
+    fn refuse(&self, peer: SocketAddr, status: &Status) -> Status {
         self.shared.refused(peer, status.message());
         // It may hold what the caller has said, of whatever length.
         Status::new(status.code(), plain(status.message()))
@@ -49,7 +49,7 @@ impl Service {
 
     /// The same of a slave that has joined, for which it counts as an error.
     fn refuse_slave(&self, peer: SocketAddr, id: &SlaveId, status: Status) -> Status {
-        let status = self.refuse(peer, status);
+        let status = self.refuse(peer, &status);
         if let Some(slave) = self.shared.roster().known(id) {
             slave.errors += 1;
             slave.last_error = Some(status.message().to_owned());
@@ -119,12 +119,12 @@ impl Farm for Service {
                  samples of different programs do not mix, so the same version is needed",
                 program.chars().take(SHOWN_PROGRAM).collect::<String>()
             );
-            return Err(self.refuse(peer, Status::failed_precondition(what)));
+            return Err(self.refuse(peer, &Status::failed_precondition(what)));
         }
-        let id = slave_id(&slave).map_err(|status| self.refuse(peer, status))?;
+        let id = slave_id(&slave).map_err(|status| self.refuse(peer, &status))?;
         if !(1..=MOST_THREADS).contains(&(threads as usize)) {
             let what = format!("a slave tells of {threads} threads; 1 to {MOST_THREADS} can be");
-            return Err(self.refuse(peer, Status::invalid_argument(what)));
+            return Err(self.refuse(peer, &Status::invalid_argument(what)));
         }
         // Who has something left to send may come back for that.
         if shared.is_ending.load(Ordering::Relaxed) && !shared.roster().expects(&id) {
@@ -135,7 +135,7 @@ impl Farm for Service {
                 "the master renders with seed {seed} itself, and the same samples would come twice; give the slave another \
                  -seed, or none"
             );
-            return Err(self.refuse(peer, Status::already_exists(what)));
+            return Err(self.refuse(peer, &Status::already_exists(what)));
         }
         let introduction = Introduction { name: &name, peer, seed, threads };
         let joined = shared.roster().join(id, introduction, Instant::now()).map(|slave| slave.name.clone());
@@ -144,7 +144,7 @@ impl Farm for Service {
                 Unwelcome::Taken(what) => Status::already_exists(what),
                 Unwelcome::Full(what) => Status::resource_exhausted(what),
             };
-            self.refuse(peer, status)
+            self.refuse(peer, &status)
         })?;
         let ((merged_end, durable_end), generation) = {
             let shared = Arc::clone(shared);
@@ -188,10 +188,10 @@ impl Farm for Service {
     ) -> Result<Response<Self::FetchSceneStream>, Status> {
         let peer = peer_of(&request);
         let SceneRequest { slave, pack_hash } = request.into_inner();
-        let id = slave_id(&slave).map_err(|status| self.refuse(peer, status))?;
+        let id = slave_id(&slave).map_err(|status| self.refuse(peer, &status))?;
         self.shared.roster().heard(&id, Instant::now()).ok_or_else(unknown)?;
         if pack_hash != self.shared.pack_hash[..] {
-            return Err(self.refuse(peer, Status::not_found("the master has another scene")));
+            return Err(self.refuse(peer, &Status::not_found("the master has another scene")));
         }
         let pack = self.shared.scene.pack.clone();
         let shared = Arc::clone(&self.shared);
@@ -207,9 +207,9 @@ impl Farm for Service {
         let peer = peer_of(&request);
         let mut stream = request.into_inner();
         let Some(Part::Start(start)) = next(&mut stream).await? else {
-            return Err(self.refuse(peer, Status::invalid_argument("an upload begins with its length")));
+            return Err(self.refuse(peer, &Status::invalid_argument("an upload begins with its length")));
         };
-        let id = slave_id(&start.slave).map_err(|status| self.refuse(peer, status))?;
+        let id = slave_id(&start.slave).map_err(|status| self.refuse(peer, &status))?;
         let seed = self.shared.roster().heard(&id, Instant::now()).ok_or_else(unknown)?.seed;
         let result = self.receive(id, seed, &start, stream).await;
         match result {

@@ -154,7 +154,7 @@ const UID: Field = Field::new(
 /// The declaration of `medium`.
 pub static MEDIUM: Block = Block::new(
     "medium",
-    "Defines a medium: a name, a precedence and one kind. Where it stands in the scene does not matter. \
+    "Defines a medium: a name, a precedence and one kind. Where it stands in the scene matters only beside media of the same precedence. \
      The children of `basic` may also stand directly in `medium`.",
     &[
         Field::new("name", Kind::Name, Presence::Required, "Name by which materials refer to it."),
@@ -164,7 +164,7 @@ pub static MEDIUM: Block = Block::new(
             Kind::Int,
             Presence::Default("10"),
             "Where several media overlap, the one with the highest precedence is there and displaces the \
-             others. Air, which fills the scene by itself, has 1.",
+             others; of those with the same, the one that is defined last. Air, which fills the scene by itself, has 1.",
         )
         .range(Range::Above(1.0)),
     ],
