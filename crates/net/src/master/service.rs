@@ -48,8 +48,8 @@ impl Service {
     }
 
     /// The same of a slave that has joined, for which it counts as an error.
-    fn refuse_slave(&self, peer: SocketAddr, id: &SlaveId, status: Status) -> Status {
-        let status = self.refuse(peer, &status);
+    fn refuse_slave(&self, peer: SocketAddr, id: &SlaveId, status: &Status) -> Status {
+        let status = self.refuse(peer, status);
         if let Some(slave) = self.shared.roster().known(id) {
             slave.errors += 1;
             slave.last_error = Some(status.message().to_owned());
@@ -217,7 +217,7 @@ impl Farm for Service {
                 self.shared.roster().heard(&id, Instant::now());
                 Ok(Response::new(UploadReply { merged_end, durable_end, generation }))
             }
-            Err(status) => Err(self.refuse_slave(peer, &id, status)),
+            Err(status) => Err(self.refuse_slave(peer, &id, &status)),
         }
     }
 
@@ -228,7 +228,7 @@ impl Farm for Service {
         // It lives, however long the film is busy.
         self.shared.roster().heard(&id, Instant::now()).ok_or_else(unknown)?;
         let report =
-            Report::of(&said).map_err(|what| self.refuse_slave(peer, &id, Status::invalid_argument(what)))?;
+            Report::of(&said).map_err(|what| self.refuse_slave(peer, &id, &Status::invalid_argument(what)))?;
         let shared = Arc::clone(&self.shared);
         let noted = spawn_blocking(move || note(&shared, &id, report));
         let durable_end = noted.await.map_err(failed)?.ok_or_else(unknown)?;
