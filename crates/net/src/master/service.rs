@@ -227,8 +227,8 @@ impl Farm for Service {
         let id = slave_id(&said.slave)?;
         // It lives, however long the film is busy.
         self.shared.roster().heard(&id, Instant::now()).ok_or_else(unknown)?;
-        let report =
-            Report::of(&said).map_err(|what| self.refuse_slave(peer, &id, &Status::invalid_argument(what)))?;
+        let report = Report::of(&said)
+            .map_err(|what| self.refuse_slave(peer, &id, &Status::invalid_argument(what)))?;
         let shared = Arc::clone(&self.shared);
         let noted = spawn_blocking(move || note(&shared, &id, report));
         let durable_end = noted.await.map_err(failed)?.ok_or_else(unknown)?;
