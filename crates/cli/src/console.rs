@@ -1,13 +1,13 @@
 //! What the user sees: messages, and a progress line that renews itself on a terminal; and the logs that keep it.
 
-use indigo_diag::{Diagnostic, Severity, SourceMap, Style, quoted, to_json, to_text};
+use indigo_diag::{Diagnostic, Severity, SourceMap, Style, quoted, shown, to_json, to_text};
 use indigo_front::messages::{Messages, Verbosity, clock, scaled};
 use indigo_front::paths::utc;
 use indigo_net::event::{Event, Field, Weight};
 use indigo_render::Progress;
 use std::fs::{File, OpenOptions};
-use std::io::{IsTerminal, Write};
-use std::path::Path;
+use std::io::{IsTerminal, Read as _, Write};
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime};
 
 /// Time between lines of progress in logs, while a terminal has its line renewed several times a second.
@@ -45,9 +45,9 @@ impl Level {
 pub struct Console {
     verbosity: Verbosity,
     /// The log in plain text.
-    log: Option<File>,
+    log: Option<Log>,
     /// The log as a line of JSON for each message.
-    json_log: Option<File>,
+    json_log: Option<Log>,
     /// Whether errors and warnings are written to standard output as a line of JSON each.
     json: bool,
     terminal: bool,
@@ -77,7 +77,7 @@ impl Console {
     /// From now on writes everything to a file, too; a file that cannot be written costs a warning.
     pub fn log_to(&mut self, path: &Path) {
         match OpenOptions::new().create(true).append(true).open(path) {
-            Ok(file) => self.log = Some(file),
+            Ok(file) => self.log = Some(Log::new(path, file)),
             Err(error) => self.warn(&format!("no log is kept: {}: {error}", path.display())),
         }
     }
@@ -85,9 +85,15 @@ impl Console {
     /// From now on writes everything to a file as a line of JSON each, too.
     ///
     /// # Errors
-    /// What the system says: whoever asks for such a log wants to read it.
+    /// What the system says: whoever asks for such a log wants to read it. And where something else is there, a key or a scene,
+    /// to which nothing may be appended.
     pub fn log_json_to(&mut self, path: &Path) -> std::io::Result<()> {
-        self.json_log = Some(OpenOptions::new().create(true).append(true).open(path)?);
+        if !may_be_json_log(path)? {
+            return Err(std::io::Error::other(
+                "this is another file, and no log to append to; give another name",
+            ));
+        }
+        self.json_log = Some(Log::new(path, OpenOptions::new().create(true).append(true).open(path)?));
         Ok(())
     }
 
@@ -115,29 +121,48 @@ impl Console {
         self.verbosity = verbosity;
     }
 
-    /// Writes a message of one or more lines; the logs have what the console passes over. `fields` are more of a line
+    /// Writes a message, in which there may be names of whatever files.
+    fn tell(&mut self, level: Level, message: &str, fields: &str) {
+        let word = match level {
+            Level::Error => "error: ",
+            Level::Warning => "warning: ",
+            Level::Info | Level::Detail => "",
+        };
+        self.write(level, &format!("{word}{}", shown(message)), message, fields);
+    }
+
+    /// Writes a message of one or more lines, which a terminal may have as they are; the logs have what the console passes over. `fields` are more of a line
     /// of JSON, each behind a comma.
     fn write(&mut self, level: Level, text: &str, message: &str, fields: &str) {
-        // Nobody is left to be told if standard error or a log fails.
+        // Nobody is left to be told if standard error fails.
         if level.least() <= self.verbosity {
             self.wipe();
             drop(writeln!(std::io::stderr(), "{text}"));
         }
-        if let Some(log) = self.log.as_mut().filter(|_| level.least() <= self.verbosity.max(Verbosity::Usual))
-        {
-            drop(writeln!(log, "{}", without_escapes(text)));
+        if level.least() <= self.verbosity.max(Verbosity::Usual) {
+            self.write_log(text);
         }
         self.write_json(level.name(), message, fields);
     }
 
+    fn write_log(&mut self, text: &str) {
+        let failure = self.log.as_mut().and_then(|log| log.write(&without_escapes(text)));
+        self.tell_failure(failure);
+    }
+
     fn write_json(&mut self, level: &str, message: &str, fields: &str) {
-        if let Some(log) = &mut self.json_log {
+        let failure = self.json_log.as_mut().and_then(|log| {
             let time = utc(SystemTime::now());
             let message = quoted(message);
-            let line =
-                format!("{{\"time\":\"{time}\",\"level\":\"{level}\",\"message\":{message}{fields}}}\n");
-            // In one piece: others may append to the same file.
-            drop(log.write_all(line.as_bytes()));
+            log.write(&format!("{{\"time\":\"{time}\",\"level\":\"{level}\",\"message\":{message}{fields}}}"))
+        });
+        self.tell_failure(failure);
+    }
+
+    /// Says what is wrong with a log, which it tells but once.
+    fn tell_failure(&mut self, failure: Option<String>) {
+        if let Some(failure) = failure {
+            self.warn(&failure);
         }
     }
 
@@ -188,9 +213,7 @@ impl Console {
 
     fn log_progress(&mut self, p: &Progress, text: &str) {
         self.last_logged = Some(Instant::now());
-        if let Some(log) = &mut self.log {
-            drop(writeln!(log, "{text}"));
-        }
+        self.write_log(text);
         let error = p.relative_error.map(|e| format!(",\"relative_error\":{e}")).unwrap_or_default();
         let fields = format!(
             ",\"samples\":{},\"samples_per_pixel\":{},\"samples_per_second\":{},\"elapsed_s\":{}{error}",
@@ -221,20 +244,20 @@ impl Console {
 impl Messages for Console {
     fn error(&mut self, message: &str) {
         self.write_for_programs(&Diagnostic::error("", None, message));
-        self.write(Level::Error, &format!("error: {message}"), message, "");
+        self.tell(Level::Error, message, "");
     }
 
     fn warn(&mut self, message: &str) {
         self.write_for_programs(&Diagnostic::warning("", None, message));
-        self.write(Level::Warning, &format!("warning: {message}"), message, "");
+        self.tell(Level::Warning, message, "");
     }
 
     fn say(&mut self, message: &str) {
-        self.write(Level::Info, message, message, "");
+        self.tell(Level::Info, message, "");
     }
 
     fn detail(&mut self, message: &str) {
-        self.write(Level::Detail, message, message, "");
+        self.tell(Level::Detail, message, "");
     }
 
     fn event(&mut self, event: &Event) {
@@ -244,13 +267,52 @@ impl Messages for Console {
             Field::Number(number) => format!(",\"{name}\":{number}"),
         });
         let fields = format!(",\"event\":\"{}\"{}", event.kind(), values.collect::<String>());
-        let (level, text) = match event.weight() {
-            Weight::Detail => (Level::Detail, message.clone()),
-            Weight::Info => (Level::Info, message.clone()),
-            Weight::Warning => (Level::Warning, format!("warning: {message}")),
+        let level = match event.weight() {
+            Weight::Detail => Level::Detail,
+            Weight::Info => Level::Info,
+            Weight::Warning => Level::Warning,
         };
-        self.write(level, &text, &message, &fields);
+        self.tell(level, &message, &fields);
     }
+}
+
+/// A file that lines are appended to.
+struct Log {
+    path: PathBuf,
+    file: File,
+    /// Whether it was told that lines do not reach it.
+    has_failed: bool,
+    /// Whether the last line may have reached it in part.
+    is_torn: bool,
+}
+
+impl Log {
+    fn new(path: &Path, file: File) -> Self {
+        Self { path: path.to_path_buf(), file, has_failed: false, is_torn: false }
+    }
+
+    /// Appends a text as lines of their own; what is to be said where that fails for the first time. It is tried again with the
+    /// next: a full disk may have room later.
+    fn write(&mut self, text: &str) -> Option<String> {
+        let start = if self.is_torn { "\n" } else { "" };
+        // In one piece: others may append to the same file.
+        let written = self.file.write_all(format!("{start}{text}\n").as_bytes());
+        self.is_torn = written.is_err();
+        let is_first = !self.has_failed;
+        self.has_failed |= self.is_torn;
+        let error = written.err().filter(|_| is_first)?;
+        Some(format!("the log lacks lines from now on: {}: {error}", self.path.display()))
+    }
+}
+
+/// Whether what is there is nothing yet, a log as this one writes it, or no file that keeps anything.
+fn may_be_json_log(path: &Path) -> std::io::Result<bool> {
+    if !std::fs::metadata(path).is_ok_and(|meta| meta.is_file()) {
+        return Ok(true);
+    }
+    let mut first = [0];
+    let length = File::open(path)?.read(&mut first)?;
+    Ok(length == 0 || first == *b"{")
 }
 
 /// A message without colour codes.

@@ -2,10 +2,11 @@
 
 use crate::console::Console;
 use crate::{refuse_scene, tell_findings};
+use indigo_front::claim::Claim;
 use indigo_front::flags::Arguments;
 use indigo_front::load::with_load_options;
 use indigo_front::messages::{Messages as _, say_saved};
-use indigo_front::prepare::{denoiser, overwrites, say_missing_folder};
+use indigo_front::prepare::{denoiser, overwrites, reads_too, say_missing_folder};
 use indigo_front::status::{BAD_INPUT, FAILED, RENDERED};
 use indigo_front::{logical_cores, paths, program};
 use indigo_render::output::{OutputPaths, SaveJob, write_film};
@@ -17,6 +18,14 @@ use std::path::{Path, PathBuf};
 /// Adds films; the exit status.
 pub fn merge(arguments: &Arguments, console: &mut Console) -> u8 {
     let paths: Vec<PathBuf> = arguments.files.iter().map(PathBuf::from).collect();
+    let output = arguments.output.as_ref().map(PathBuf::from);
+    if let Some(film) = reads_too(output, &paths) {
+        console.error(&format!(
+            "-merge reads {}, which would be overwritten: give the sum another name",
+            film.display()
+        ));
+        return BAD_INPUT;
+    }
     let sum = match merge_films(&paths) {
         Ok(sum) => sum,
         Err(error) => return fail(&error, console),
@@ -28,6 +37,10 @@ pub fn merge(arguments: &Arguments, console: &mut Console) -> u8 {
         return BAD_INPUT;
     };
     say_missing_folder(Path::new(output), console);
+    let _claim = match Claim::for_moment(Path::new(output), console) {
+        Ok(claim) => claim,
+        Err(status) => return status,
+    };
     match with_jobs(logical_cores(), || write_film(Path::new(output), &sum.film, record)) {
         Ok(path) => {
             let spp = record.samples as f64 / sum.film.size.pixels() as f64;
@@ -119,6 +132,10 @@ pub fn tone_map(arguments: &Arguments, console: &mut Console) -> u8 {
         return BAD_INPUT;
     }
     say_missing_folder(&job.paths.png, console);
+    let _claim = match Claim::for_moment(&job.paths.igi(), console) {
+        Ok(claim) => claim,
+        Err(status) => return status,
+    };
     if say_saved(&job.save_developed(developed), console) { RENDERED } else { FAILED }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::console::Console;
 use crate::{answer, refuse, refuse_scene, tell_findings};
-use indigo_diag::quoted;
+use indigo_diag::{quoted, shown};
 use indigo_front::flags::Arguments;
 use indigo_front::load::with_load_options;
 use indigo_front::messages::{Messages as _, count};
@@ -34,11 +34,13 @@ pub fn run(arguments: &Arguments, console: &mut Console) -> u8 {
 
 /// As a line for people.
 fn text(need: &Need) -> String {
-    match &need.bytes {
-        Ok(bytes) => format!("{bytes:>12}  {}\n", need.path),
-        Err(error) if need.named_in.is_empty() => format!("{:>12}  {}: {error}\n", "missing", need.path),
-        Err(error) => format!("{:>12}  {}, named in {}: {error}\n", "missing", need.path, need.named_in),
-    }
+    let Need { path, named_in, .. } = need;
+    let line = match &need.bytes {
+        Ok(bytes) => format!("{bytes:>12}  {path}"),
+        Err(error) if named_in.is_empty() => format!("{:>12}  {path}: {error}", "missing"),
+        Err(error) => format!("{:>12}  {path}, named in {named_in}: {error}", "missing"),
+    };
+    format!("{}\n", shown(&line))
 }
 
 /// As an object of JSON in a line of its own.

@@ -11,7 +11,7 @@ mod render;
 mod upgrade;
 
 use console::Console;
-use indigo_diag::{Diagnostic, Severity, Sink, SourceMap, quoted, summary_to_json, to_json};
+use indigo_diag::{Diagnostic, Severity, Sink, SourceMap, quoted, shown, summary_to_json, to_json};
 use indigo_front::flags::{self, Arguments, Role};
 use indigo_front::load::load_scene;
 use indigo_front::messages::{Messages as _, Verbosity, count};
@@ -33,7 +33,10 @@ fn main() -> ExitCode {
     }
     let arguments = match flags::parse(std::env::args_os().skip(1)) {
         Ok(arguments) => arguments,
-        Err(message) => return ExitCode::from(refuse(&message, &mut Console::new(Verbosity::Usual))),
+        Err(message) => {
+            let json = flags::wants_json(std::env::args_os().skip(1));
+            return ExitCode::from(refuse(&message, &mut Console::new(Verbosity::Usual).with_json(json)));
+        }
     };
     let mut console = Console::new(arguments.verbosity).with_json(arguments.json);
     interrupts::catch(&mut console);
@@ -245,7 +248,7 @@ fn json_report(scene: &str, sink: &Sink, sources: &SourceMap) -> String {
 fn settings_listing(loaded: &Loaded) -> String {
     let lines = loaded.settings.iter().flat_map(indigo_scene::Settings::listing);
     let text: Vec<String> = lines
-        .map(|line| format!("{:<28} {:<24} ({})\n", line.name, line.value, line.origin.words()))
+        .map(|line| format!("{:<28} {:<24} ({})\n", line.name, shown(&line.value), line.origin.words()))
         .collect();
     text.concat()
 }
@@ -259,7 +262,7 @@ fn dump_metadata(path: &str, json: bool, console: &mut Console) -> u8 {
         if json {
             format!("{{\"key\":{},\"value\":{}}}\n", quoted(key), quoted(value))
         } else {
-            format!("{key}: {value}\n")
+            format!("{}: {}\n", shown(key), shown(value))
         }
     };
     match entries {

@@ -6,8 +6,9 @@ use crate::render::{between_lines, say_why};
 use indigo_film::SavedFilm;
 use indigo_front::flags::Arguments;
 use indigo_front::messages::Messages as _;
-use indigo_front::net::master::{MasterRender, get_ready};
+use indigo_front::net::master::{Gathered, MasterRender, get_ready};
 use indigo_front::net::slave::SlaveRender;
+use indigo_front::prepare::say_missing_folder;
 use indigo_front::status::{FAILED, RENDERED};
 use indigo_render::{HaltReason, Progress};
 use indigo_scene::Scene;
@@ -23,6 +24,7 @@ const LINES_OF_SLAVES: [Duration; 2] = [Duration::from_millis(250), Duration::fr
 
 /// Makes a key; the exit status.
 pub fn make_key(path: &Path, console: &mut Console) -> u8 {
+    say_missing_folder(path, console);
     match indigo_front::net::make_key(path) {
         Ok(()) => {
             console.say(&format!(
@@ -84,20 +86,31 @@ fn follow(mut render: MasterRender, console: &mut Console) -> u8 {
             console.progress_of(&progress, &format!("   {}", render.company()));
         }
         let reason = render.why_end().or_else(|| is_interrupted().then_some(HaltReason::Stopped));
-        if let Some(reason) = reason {
-            return finish(render, &reason, progress.elapsed, console);
+        let Some(reason) = reason else { continue };
+        let gathered = gather(render, &reason, console);
+        if !gathered.lacks_samples || is_interrupted() {
+            return finish(gathered, &reason, progress.elapsed, console);
         }
+        // Nobody's word ends a render that has not what was asked for.
+        render = match gathered.go_on(console) {
+            Ok(render) => render,
+            Err(status) => return status,
+        };
     }
 }
 
-/// Gathers the last of what there is, and saves it; the exit status.
-fn finish(mut render: MasterRender, reason: &HaltReason, elapsed: Duration, console: &mut Console) -> u8 {
+/// Gathers the last of what there is.
+fn gather(mut render: MasterRender, reason: &HaltReason, console: &mut Console) -> Gathered {
     if let Some(slaves) = render.begin_end(console) {
         console.say(&format!(
             "Waiting for the last of {slaves}; Ctrl-C again ends at once, and saves nothing more"
         ));
     }
-    let gathered = render.gather(reason, console);
+    render.gather(reason, console)
+}
+
+/// Saves what was gathered; the exit status.
+fn finish(gathered: Gathered, reason: &HaltReason, elapsed: Duration, console: &mut Console) -> u8 {
     console.last_progress(&gathered.progress);
     if !gathered.lacks_samples {
         // The last of the slaves' samples are counted, and the time that they took to come is not.

@@ -102,7 +102,8 @@ pub fn say_why(reason: &HaltReason, progress: &Progress, console: &mut Console) 
             let error = 100.0 * progress.relative_error.unwrap_or_default();
             console.say(&format!("Halted with the estimated error that was asked for: {error:.2}%"));
         }
-        HaltReason::Stopped => console.say("Interrupted: what was rendered is saved"),
+        // Whether it is then is told behind it.
+        HaltReason::Stopped => console.say("Interrupted: saving what was rendered"),
         HaltReason::Failed(message) => console.error(message),
     }
 }

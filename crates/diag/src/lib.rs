@@ -5,11 +5,13 @@
 //! This crate knows no file format, opens no file and prints nothing.
 
 mod render;
+mod shown;
 mod sink;
 mod source;
 mod suggest;
 
 pub use render::{Style, quoted, summary_to_json, to_json, to_text};
+pub use shown::shown;
 pub use sink::{Diagnostic, Severity, Sink};
 pub use source::{Excerpt, Position, SourceId, SourceMap, Span, Spanned};
 pub use suggest::{Candidates, nearest};

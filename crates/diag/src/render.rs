@@ -1,6 +1,7 @@
 //! Diagnostics as text for people and as JSON for programs.
 
-use crate::source::{Excerpt, is_hidden};
+use crate::shown::{is_hidden, shown};
+use crate::source::Excerpt;
 use crate::{Diagnostic, Severity, Sink, SourceMap, Span};
 use std::borrow::Cow;
 use std::fmt::Write as _;
@@ -113,14 +114,10 @@ const SHOWN: usize = 200;
 
 /// A text without its middle if it is very long, and without what a terminal would act on: names come from files.
 fn shortened(text: &str) -> Cow<'_, str> {
-    if text.contains(|c| is_hidden(c) && c != '\n') {
-        let shown: String =
-            text.chars().map(|c| if is_hidden(c) && c != '\n' { '\u{fffd}' } else { c }).collect();
-        return shortened(&shown).into_owned().into();
-    }
+    let text = shown(text);
     let length = text.chars().count();
     if length <= LONGEST {
-        return text.into();
+        return text;
     }
     let part = |skip: usize| text.chars().skip(skip).take(SHOWN).collect::<String>();
     format!("{} ... {}", part(0), part(length - SHOWN)).into()
@@ -169,7 +166,8 @@ pub fn quoted(text: &str) -> String {
         match c {
             '"' => out.push_str("\\\""),
             '\\' => out.push_str("\\\\"),
-            c if (c as u32) < 0x20 => {
+            // Not only those that must be: such lines are looked at on terminals, too. All are of four digits.
+            c if is_hidden(c) => {
                 let _ = write!(out, "\\u{:04x}", c as u32);
             }
             c => out.push(c),

@@ -1,5 +1,6 @@
 //! Files, and places in them.
 
+use crate::shown::is_hidden;
 use std::sync::{Arc, OnceLock};
 
 /// A file known to a [`SourceMap`].
@@ -195,12 +196,6 @@ impl SourceMap {
         let end = (start + usize::from(span.len)).min(line_end);
         Excerpt { text: shown, marked: before..before + characters(&text[start..end]) }
     }
-}
-
-/// Whether a character moves the cursor, hides, or turns the direction of writing of what follows it.
-pub(crate) fn is_hidden(c: char) -> bool {
-    let turns = matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
-    c.is_control() || turns
 }
 
 fn is_character_start(byte: u8) -> bool {

@@ -108,9 +108,15 @@ pub struct Arguments {
 pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Arguments, String> {
     let mut parsed = Arguments::default();
     let mut rest = arguments.into_iter();
+    // Behind -- there are files alone, whatever they begin with.
+    let mut are_files = false;
     while let Some(argument) = rest.next() {
         let argument = argument.into_string().map_err(|a| format!("{} is not Unicode text", a.display()))?;
-        let Some(written) = argument.strip_prefix('-').filter(|a| !a.is_empty()) else {
+        if argument == "--" && !are_files {
+            are_files = true;
+            continue;
+        }
+        let Some(written) = argument.strip_prefix('-').filter(|a| !a.is_empty() && !are_files) else {
             parsed.files.push(argument);
             continue;
         };
@@ -149,11 +155,28 @@ fn find(name: &str) -> Result<&'static Flag, String> {
     if let Some(flag) = FLAGS.iter().find(|f| f.name == name || f.alias == Some(name)) {
         return Ok(flag);
     }
-    let hint = indigo_diag::nearest(name, FLAGS.iter().map(|f| f.name));
-    Err(match hint {
+    Err(match hint(name) {
         Some(hint) => format!("unknown option -{name}; did you mean -{hint}?"),
         None => format!("unknown option -{name}; --help lists all options"),
     })
+}
+
+/// The option that may be meant by a name that is none.
+fn hint(name: &str) -> Option<&'static str> {
+    let names = || FLAGS.iter().flat_map(|flag| std::iter::once(flag.name).chain(flag.alias));
+    let begins = |other: &&str| other.get(..name.len()).is_some_and(|start| start.eq_ignore_ascii_case(name));
+    let alike = names().find(|other| other.eq_ignore_ascii_case(name));
+    // Of single letters all are as near.
+    let near = || match name.chars().count() {
+        1 => names().find(begins),
+        _ => indigo_diag::nearest(name, FLAGS.iter().map(|flag| flag.name)),
+    };
+    alike.or_else(near)
+}
+
+/// Whether a command line, however wrong, asks for JSON.
+pub fn wants_json(mut arguments: impl Iterator<Item = OsString>) -> bool {
+    arguments.any(|argument| argument == "-json" || argument == "--json")
 }
 
 fn apply(flag: &Flag, value: String, parsed: &mut Arguments) -> Result<(), String> {

@@ -1,7 +1,7 @@
 //! What the front ends share: the command line, where files are, loading a scene, getting ready to render it, and
 //! saving on the way. `indigo_console` adds what is said on a terminal, `indigo` a window.
 
-mod claim;
+pub mod claim;
 pub mod cpu;
 pub mod flags;
 pub mod load;

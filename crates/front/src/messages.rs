@@ -37,6 +37,9 @@ pub fn say_saved(saved: &Saved, messages: &mut dyn Messages) -> bool {
     for file in &saved.written {
         messages.say(&format!("Saved {}", file.display()));
     }
+    for file in &saved.kept {
+        messages.say(&format!("{} stays as it was: there are no samples to take its place", file.display()));
+    }
     for error in &saved.failures {
         messages.error(&error.to_string());
     }

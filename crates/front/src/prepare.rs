@@ -45,6 +45,7 @@ pub fn prepare(
     messages: &mut dyn Messages,
 ) -> Result<Prepared, u8> {
     describe(&scene, messages);
+    say_no_halt(arguments, messages);
     // Before anything is written.
     if let Some(Err(error)) = saved.map(|saved| Session::check(&scene, saved)) {
         return Err(fail(&error, messages));
@@ -96,17 +97,21 @@ pub fn prepare(
     Ok(Prepared { scene, options, job, _picture: picture, _claim: claim })
 }
 
-/// What to say where a file that is to be written is one of those that were read, by whatever name.
-pub fn overwrites(mut written: impl Iterator<Item = PathBuf>, read: &[PathBuf]) -> Option<String> {
-    let is_read = |path: &PathBuf| {
-        let Ok(path) = path.canonicalize() else { return false };
-        read.iter().any(|file| file.canonicalize().is_ok_and(|file| file == path))
-    };
-    written.find(is_read).map(|file| {
+/// What to say where a file that is to be written is one of those that were read.
+pub fn overwrites(written: impl IntoIterator<Item = PathBuf>, read: &[PathBuf]) -> Option<String> {
+    reads_too(written, read).map(|file| {
         format!(
             "the scene reads {}, which would be overwritten: give the picture another name, or that file",
             file.display()
         )
+    })
+}
+
+/// The first of the files that are to be written which is one of those that are read, by whatever name.
+pub fn reads_too(written: impl IntoIterator<Item = PathBuf>, read: &[PathBuf]) -> Option<PathBuf> {
+    written.into_iter().find(|path| {
+        let Ok(path) = path.canonicalize() else { return false };
+        read.iter().any(|file| file.canonicalize().is_ok_and(|file| file == path))
     })
 }
 
@@ -189,6 +194,16 @@ fn describe(scene: &Scene, messages: &mut dyn Messages) {
     if let Some(n) = scene.output.halt_samples_per_pixel.filter(|n| n.fract() != 0.0) {
         messages
             .say(&format!("note: whole samples are taken: halting at {} per pixel, not at {n}", n.ceil()));
+    }
+}
+
+/// Says that what was given as a halting condition is none: numbers that are not positive mean never, as in scenes.
+fn say_no_halt(arguments: &Arguments, messages: &mut dyn Messages) {
+    for given in &arguments.settings {
+        let is_halt = ["halt_time", "halt_samples_per_pixel"].contains(&given.setting);
+        if is_halt && given.value.parse().is_ok_and(|value: f64| value <= 0.0) {
+            messages.say(&format!("note: {} {} is never, as without it", given.option, given.value));
+        }
     }
 }
 

@@ -89,7 +89,7 @@ impl Saver {
         let first_failure = (!saved.failures.is_empty()).then(|| saved.failures.swap_remove(0));
         if let Some(error) = first_failure {
             self.complain(&error, messages);
-        } else if !self.announced {
+        } else if !self.announced && !saved.written.is_empty() {
             self.announced = true;
             say_saved(&saved, messages);
         } else {

@@ -39,14 +39,24 @@ mod tls;
 mod watched;
 
 use indigo_film::FilmError;
+use std::io::ErrorKind;
+
+/// What may help where a port cannot be listened at.
+fn way_out(why: &std::io::Error) -> &'static str {
+    match why.kind() {
+        ErrorKind::AddrInUse => "another master may be running, or choose another port with -p",
+        ErrorKind::PermissionDenied => {
+            "those below 1024 are the system's own as a rule: choose another port with -p"
+        }
+        _ => "choose another port with -p",
+    }
+}
 
 /// Why there is no master or slave.
 #[derive(Debug, thiserror::Error)]
 pub enum NetError {
     /// The port cannot be listened at.
-    #[error(
-        "cannot listen at port {port}: {source}; another master may be running, or choose another port with -p"
-    )]
+    #[error("cannot listen at port {port}: {source}; {}", way_out(.source))]
     Listen {
         /// The port.
         port: u16,
@@ -81,4 +91,17 @@ pub enum NetError {
          indigo_console --make-key FILE, and give that file to master and slaves by --key-file"
     )]
     NotLocal(String),
+}
+
+#[cfg(test)]
+mod words {
+    use super::{ErrorKind, NetError};
+
+    #[test]
+    fn a_port_that_is_forbidden_is_not_another_masters() {
+        let told = |kind: ErrorKind| NetError::Listen { port: 80, source: kind.into() }.to_string();
+        assert!(told(ErrorKind::AddrInUse).contains("another master may be running"));
+        let forbidden = told(ErrorKind::PermissionDenied);
+        assert!(forbidden.contains("below 1024") && !forbidden.contains("another master"), "{forbidden}");
+    }
 }

@@ -18,9 +18,9 @@ pub const SETTINGS: usize = MESSAGE / 2;
 pub const CONNECTIONS: usize = 256;
 /// The most calls at a time over a connection: a slave makes one after another, and reports meanwhile.
 pub const CALLS: u32 = 8;
-/// The most connections to the status page at a time.
+/// The most connections to the status page at a time. When there is one more another makes room.
 pub const VISITORS: usize = 64;
-/// A connection to the status page over which nothing comes or goes for so long ends.
+/// A connection to the status page over which no answer goes for so long ends: a question may take no longer, either.
 pub const PAGE_SILENCE: Duration = Duration::from_secs(10);
 /// So many films, as large as compressed ones can be, are what a master has room for beside its own. Those that are received
 /// at a time share it by their real lengths, so that many slow ones have their turn together; others wait.
@@ -33,6 +33,9 @@ pub const SLAVES: usize = 1024;
 pub const NAME: usize = 64;
 /// The most bytes of a packed scene that a slave takes: of no larger file is ever read.
 pub const PACK: u64 = 4 << 30;
+
+/// The most samples a second that a slave is believed to render.
+pub const FASTEST: f64 = 1e12;
 
 /// A peer that says nothing for so long is taken for gone.
 pub const SILENCE: Duration = Duration::from_secs(30);
@@ -48,6 +51,12 @@ pub const HANDSHAKE: Duration = Duration::from_secs(10);
 pub const ANSWER: Duration = Duration::from_secs(30);
 /// How long an upload may take, however slow the network.
 pub const UPLOAD: Duration = Duration::from_mins(30);
+/// Who waits so long for room makes one of those give up theirs that take it and send less than [`LEAST_RATE`].
+pub const PATIENCE: Duration = Duration::from_secs(2);
+/// The least bytes a second of an upload that others wait for, on the average: an eighth of a megabit, as poor lines have.
+pub const LEAST_RATE: u64 = 16 << 10;
+/// How long an upload may be slower than that at first: networks stand still for seconds.
+pub const RUN_UP: Duration = Duration::from_secs(10);
 /// Time between a slave's reports.
 pub const REPORTS: Duration = Duration::from_secs(2);
 /// The same when a number of samples is about to be reached: what is rendered between two of them may be too many.

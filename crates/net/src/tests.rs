@@ -21,6 +21,7 @@ use std::net::{SocketAddr, TcpStream};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 use tokio::runtime::Runtime;
+use tokio_stream::StreamExt as _;
 use tonic::transport::Channel;
 use tonic::{Code, Status};
 
@@ -206,9 +207,21 @@ fn what_waits_is_counted_until_it_is_in_the_film() {
     // More than it has told of.
     bench.send(&mut client, parcel(&film(5, 9))).unwrap();
     assert_eq!(waits(&bench), (9, 0));
-    let report = ReportRequest { waiting_samples: u64::MAX, merged_end: 9, ..report };
+    let absurd = ReportRequest { waiting_samples: u64::MAX, merged_end: 9, ..report.clone() };
+    let status = bench.runtime.block_on(client.report(absurd)).unwrap_err();
+    assert_eq!(status.code(), Code::InvalidArgument);
+    bench.wait_for("the refusal", |event| {
+        matches!(event, Event::Refused { reason, .. } if reason.contains("more than a film can count"))
+    });
+    assert_eq!((waits(&bench), bench.master.status().slaves[0].errors), ((9, 0), 1));
+    let report = ReportRequest { waiting_samples: 70, merged_end: 9, ..report };
     bench.runtime.block_on(client.report(report.clone())).unwrap();
-    assert_eq!(waits(&bench), (9, u64::MAX));
+    assert_eq!(waits(&bench), (9, 70));
+    bench.master.begin_end();
+    bench.master.take_back_end();
+    let reply = bench.runtime.block_on(client.report(report.clone())).unwrap().into_inner();
+    assert_eq!(reply.order(), crate::proto::report_reply::Order::GoOn);
+    assert_eq!(waits(&bench), (9, 0), "it was not kept");
     let _again = bench.join();
     assert_eq!(waits(&bench), (9, 0), "what it has told of may have come");
     let period = |client: &mut FarmClient<Channel>| {
@@ -267,8 +280,12 @@ fn other_programs_are_told_why_they_cannot_join() {
     bench.assert_refused("Indigo of tomorrow");
     assert_eq!(refused(|request| request.protocol = PROTOCOL - 1).code(), Code::FailedPrecondition);
     assert_eq!(refused(|request| request.slave = Bytes::from_static(b"short")).code(), Code::InvalidArgument);
+    assert_eq!(refused(|request| request.threads = 0).code(), Code::InvalidArgument);
+    assert_eq!(refused(|request| request.threads = u32::MAX).code(), Code::InvalidArgument);
     // Two slaves with one seed would send the same samples.
-    let _first = bench.join();
+    let (mut first, _) = bench.join();
+    let second = JoinRequest { slave: Bytes::from_static(&[8; 16]), seed: SEED + 5, ..request() };
+    assert_eq!(bench.join_as(&mut first, second).unwrap_err().code(), Code::ResourceExhausted);
     let status = refused(|request| request.slave = Bytes::from_static(&[8; 16]));
     assert_eq!(status.code(), Code::AlreadyExists);
     assert!(status.message().contains("seed 42"), "{status}");
@@ -446,7 +463,42 @@ fn the_status_page_shows_and_is_of_this_machine() {
     assert!(ask(&bench, "/status.json", "evil.example").starts_with("HTTP/1.1 403"));
 }
 
-/// More connections than there are places, over which nothing is said: the page comes back when they have run out of time.
+/// Slaves that open more uploads than there is room for, and give a byte now and then, are never silent: they make room for one
+/// that sends.
+#[test]
+fn who_drips_does_not_keep_others_from_the_film() {
+    let bench = Bench::new(None);
+    let drip = |slave: [u8; 16], mut client: FarmClient<Channel>| async move {
+        let start = UploadStart { slave: Bytes::copy_from_slice(&slave), bytes: 1 << 20 };
+        let drops = tokio_stream::iter(0..).then(|_| async {
+            tokio::time::sleep(Duration::from_secs(1)).await;
+            Part::Data(Bytes::from_static(b"."))
+        });
+        let parts = tokio_stream::iter([Part::Start(start)]).chain(drops);
+        client.upload(parts.map(|part| UploadPart { part: Some(part) })).await
+    };
+    let mut drips = vec![];
+    for n in [1, 2] {
+        let mut client = bench.connect();
+        let slave = Bytes::from(vec![n; 16]);
+        bench.join_as(&mut client, JoinRequest { slave, seed: n.into(), ..request() }).expect("it may join");
+        drips.extend((0..6).map(|_| bench.runtime.spawn(drip([n; 16], client.clone()))));
+    }
+    let (mut client, _) = bench.join();
+    // Until they have what room there is.
+    bench.runtime.block_on(async { tokio::time::sleep(Duration::from_secs(3)).await });
+    let began = Instant::now();
+    assert_eq!(bench.send(&mut client, parcel(&film(0, 5))).map(|reply| reply.merged_end).ok(), Some(5));
+    assert!(began.elapsed() < Duration::from_mins(1), "{:?}", began.elapsed());
+    bench.wait_for(
+        "who made room",
+        |event| matches!(event, Event::Refused { reason, .. } if reason.contains("makes room for others")),
+    );
+    assert_eq!(bench.master.status().samples, 5);
+    drips.iter().for_each(tokio::task::JoinHandle::abort);
+}
+
+/// More connections than there are places, over which nothing is said: they make room, or run out of time.
 #[test]
 fn who_is_silent_leaves_the_status_page_to_others() {
     let bench = Bench::new(None);
@@ -456,6 +508,33 @@ fn who_is_silent_leaves_the_status_page_to_others() {
     assert!(ask(&bench, "/status.json", "localhost").starts_with("HTTP/1.1 200"));
     for mut stream in silent {
         assert_eq!(stream.read(&mut [0; 1]).ok(), Some(0), "closed by the master");
+    }
+    bench.join();
+}
+
+/// As many connections as there are places, over which a question comes that never ends: others need not wait for them, and they
+/// run out of time although they are never silent.
+#[test]
+fn who_never_ends_a_question_leaves_the_status_page_to_others() {
+    use crate::limits::{PAGE_SILENCE, VISITORS};
+    let bench = Bench::new(None);
+    let page = bench.master.page().expect("there is one");
+    let drip = |_| {
+        let mut stream = TcpStream::connect(page).expect("it listens");
+        stream.write_all(b"GET / HTTP/1.1\r\nHost: localhost\r\nX: ").map(|()| stream)
+    };
+    let mut drips = (0..VISITORS).map(drip).collect::<Result<Vec<_>, _>>().expect("it listens");
+    let began = Instant::now();
+    assert!(ask(&bench, "/status.json", "localhost").starts_with("HTTP/1.1 200"));
+    assert!(began.elapsed() < PAGE_SILENCE / 2, "it does not wait until others have run out of time");
+    bench.wait_for(
+        "who made room",
+        |event| matches!(event, Event::Refused { reason, .. } if reason.contains("made room for others")),
+    );
+    while !drips.is_empty() {
+        assert!(began.elapsed() < 2 * PAGE_SILENCE, "{} are still there", drips.len());
+        drips.retain_mut(|stream| stream.write_all(b"x").is_ok());
+        std::thread::sleep(Duration::from_millis(100));
     }
     bench.join();
 }
@@ -536,6 +615,10 @@ fn who_is_refused_goes_on_to_the_next_master() {
     };
     assert!(matches!(joined(&mut life, &places[..1]), Err(Outcome::Refused(_))));
     assert_eq!(joined(&mut life, &places).ok(), Some(Some(places[1])));
+    // Something else listens there.
+    let page = ours.master.page().expect("there is one");
+    let Err(Outcome::Lost(why)) = joined(&mut life, &[page]) else { panic!("a page is no master") };
+    assert!(why.contains(&format!("no render master answers at {page}")), "{why}");
     // One that let it in, and had a scene that could not be loaded.
     life.turn_down(places[1]);
     let twins = Bench::new(None);

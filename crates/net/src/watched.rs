@@ -6,7 +6,7 @@ use std::pin::Pin;
 use std::task::{Context, Poll, ready};
 use std::time::Duration;
 use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
-use tokio::sync::OwnedSemaphorePermit;
+use tokio::sync::oneshot;
 use tokio::time::{Instant, Sleep, sleep};
 
 /// A stream of which each read must bring something within a time. A peer that is asked by HTTP/2 whether it is still
@@ -15,22 +15,29 @@ pub struct Watched<S> {
     stream: S,
     patience: Duration,
     alarm: Pin<Box<Sleep>>,
-    /// Whether something that could be written counts, too.
-    hears_writes: bool,
-    /// A place among those that are counted, which is free again when the stream ends.
-    _place: Option<OwnedSemaphorePermit>,
+    /// What must come within the time: something to read, or else room to write, which is what answers take.
+    awaits: Awaited,
+    /// Its place among those that are counted, which it may have to give to another.
+    place: Option<oneshot::Receiver<()>>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Awaited {
+    Words,
+    Answers,
 }
 
 impl<S> Watched<S> {
     /// From now on.
     pub fn new(stream: S, patience: Duration) -> Self {
-        Self { stream, patience, alarm: Box::pin(sleep(patience)), hears_writes: false, _place: None }
+        Self { stream, patience, alarm: Box::pin(sleep(patience)), awaits: Awaited::Words, place: None }
     }
 
-    /// The same for a peer that may listen for long without a word: it must take something within the time, or say it.
-    /// The stream keeps its place as long as it lives.
-    pub fn both_ways(stream: S, patience: Duration, place: OwnedSemaphorePermit) -> Self {
-        Self { hears_writes: true, _place: Some(place), ..Self::new(stream, patience) }
+    /// The same for a peer that asks, and then may listen for long without a word: between answers, or parts of one, there must
+    /// be no more than the time, however often it says a word of a question that never ends. It ends, too, when the other end
+    /// of `place` is dropped.
+    pub fn answered(stream: S, patience: Duration, place: oneshot::Receiver<()>) -> Self {
+        Self { awaits: Awaited::Answers, place: Some(place), ..Self::new(stream, patience) }
     }
 
     fn rewind(&mut self) {
@@ -40,12 +47,18 @@ impl<S> Watched<S> {
 
     /// What becomes of a call that has to wait.
     fn pending<T>(&mut self, cx: &mut Context<'_>) -> Poll<io::Result<T>> {
+        let is_taken = self.place.as_mut().is_some_and(|place| Pin::new(place).poll(cx).is_ready());
+        if is_taken {
+            // Asked again it would have no answer.
+            self.place = None;
+            return Poll::Ready(Err(io::Error::other("another has its place")));
+        }
         ready!(self.alarm.as_mut().poll(cx));
         Poll::Ready(Err(io::Error::new(ErrorKind::TimedOut, "the other side is silent")))
     }
 
     fn written(&mut self, cx: &mut Context<'_>, written: Poll<io::Result<usize>>) -> Poll<io::Result<usize>> {
-        if self.hears_writes {
+        if self.awaits == Awaited::Answers {
             if written.is_pending() {
                 return self.pending(cx);
             }
@@ -63,7 +76,9 @@ impl<S: AsyncRead + Unpin> AsyncRead for Watched<S> {
     ) -> Poll<io::Result<()>> {
         match Pin::new(&mut self.stream).poll_read(cx, buf) {
             Poll::Ready(read) => {
-                self.rewind();
+                if self.awaits == Awaited::Words {
+                    self.rewind();
+                }
                 Poll::Ready(read)
             }
             Poll::Pending => self.pending(cx),

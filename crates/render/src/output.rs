@@ -54,6 +54,8 @@ pub struct Saved {
     pub written: Vec<PathBuf>,
     /// Why the others are not; what was there of them before still is.
     pub failures: Vec<SaveError>,
+    /// Those that were there before and stay: a film without samples takes nothing's place.
+    pub kept: Vec<PathBuf>,
 }
 
 impl Saved {
@@ -67,7 +69,7 @@ impl Saved {
 
 impl From<SaveError> for Saved {
     fn from(error: SaveError) -> Self {
-        Self { written: vec![], failures: vec![error] }
+        Self { failures: vec![error], ..Self::default() }
     }
 }
 
@@ -101,12 +103,18 @@ pub struct SaveJob {
 
 impl SaveJob {
     /// Develops a film and writes all files that the scene asks for. What one of them costs the others do not pay: on a
-    /// disk that is nearly full a small picture is kept where the film has no room.
+    /// disk that is nearly full a small picture is kept where the film has no room. A film without samples, and its black picture,
+    /// take no other's place: the render before may be that of a night.
     pub fn save(&self, saved: &SavedFilm) -> Saved {
         with_jobs(self.threads, || self.save_on_pool(saved))
     }
 
     fn save_on_pool(&self, saved: &SavedFilm) -> Saved {
+        let is_blank = saved.record.as_ref().is_some_and(|record| record.samples == 0);
+        let kept: Vec<PathBuf> = self.files().filter(|path| is_blank && has_content(path)).collect();
+        if !kept.is_empty() {
+            return Saved { kept, ..Saved::default() };
+        }
         let mut all = Saved::default();
         // First what cannot be made again.
         if let (true, Some(record)) = (self.development.output.igi, &saved.record) {
@@ -289,6 +297,11 @@ impl Saving {
         let failed = || SaveError::Thread("the thread that saves failed".to_owned());
         self.handle.join().unwrap_or_else(|_| failed().into())
     }
+}
+
+/// Whether a file is there that is not empty, as one is that only keeps a name.
+fn has_content(path: &Path) -> bool {
+    std::fs::metadata(path).is_ok_and(|meta| meta.is_file() && meta.len() > 0)
 }
 
 /// Writes a picture if it could be encoded.

@@ -1,6 +1,6 @@
 //! What the program writes.
 
-use super::workbench::{Workbench, assert_picture};
+use super::workbench::{Workbench, assert_picture, scene};
 
 const QUIET: &str = "<logging>false</logging>";
 
@@ -381,6 +381,7 @@ fn an_estimated_error_ends_a_render() {
 #[test]
 fn a_picture_is_one_renders_at_a_time() {
     let bench = Workbench::new(&format!("{QUIET}<image_save_period>0.05</image_save_period>"));
+    bench.write("film.igs", &scene(&format!("{QUIET}<save_igi>true</save_igi>")));
     let mut first = bench.start(&["scene.igs", "-o", "a.png", "-t", "1"]);
     first.wait_for(&bench.path("a.png"));
     let path = bench.path("a.png").display().to_string();
@@ -393,10 +394,32 @@ fn a_picture_is_one_renders_at_a_time() {
             "{second:?}"
         );
     }
-    assert_eq!(
-        bench.run(&["scene.igs", "-o", "b.png", "-haltspp", "1"]).status,
-        Some(0),
-        "another name is free"
+    let other = bench.run(&["scene.igs", "-o", "b.png", "-haltspp", "1"]);
+    assert_eq!(other.status, Some(0), "another name is free: {other:?}");
+    // What is added up or developed would be gone with the next save.
+    for seed in ["1", "2"] {
+        let ran = bench.run(&["film.igs", "-o", &format!("{seed}.png"), "-seed", seed, "-haltspp", "1"]);
+        assert_eq!(ran.status, Some(0), "{ran:?}");
+    }
+    for arguments in
+        [&["--merge", "1.igi", "2.igi", "-o", "a.igi"][..], &["--tonemap", "scene.igs", "1.igi", "a.png"]]
+    {
+        let ran = bench.run(arguments);
+        assert!(ran.status == Some(1) && ran.stderr.contains("another render writes"), "{ran:?}");
+        assert!(!bench.path("a.igi").exists());
+    }
+    let ran = bench.run(&["--merge", "1.igi", "2.igi", "-o", "new/sum.igi"]);
+    assert!(ran.status == Some(0) && !ran.stderr.contains("warning"), "{ran:?}");
+    // Who can keep no lock is told so.
+    let ran = bench.run_with(
+        "INDIGO_CACHE",
+        &bench.path("scene.igs"),
+        &["scene.igs", "-o", "c.png", "-haltspp", "1"],
+    );
+    let says = "whether another render writes c.igi cannot be told";
+    assert!(
+        ran.status == Some(0) && ran.stderr.contains(says) && ran.stderr.contains("INDIGO_CACHE"),
+        "{ran:?}"
     );
     first.0.kill().expect("a child of ours");
     first.0.wait().expect("a child of ours");

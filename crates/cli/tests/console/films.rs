@@ -44,6 +44,28 @@ fn a_render_goes_on_where_it_ended() {
     assert!(told.stdout.contains("num_samples: 7200") && told.stdout.contains("seed: 9"), "{}", told.stdout);
 }
 
+/// The command of last night again, with the film forgotten, and ended before anything came.
+#[test]
+fn a_film_without_samples_takes_no_others_place() {
+    let bench = Workbench::new(&format!("{SAVED}<image_save_period>0.1</image_save_period>"));
+    ok(&bench.run(&["scene.igs", "-haltspp", "2", "-o", "a.png"]));
+    let content = |name: &str| std::fs::read(bench.path(name)).expect("it is there");
+    let before = [content("a.igi"), content("a.png")];
+    let master = ["scene.igs", "-n", "m", "-p", "0", "-halt", "0.5", "-o"];
+    let ran = bench.run(&[&master[..], &["a.png"]].concat());
+    ok(&ran);
+    assert!([content("a.igi"), content("a.png")] == before, "{ran:?}");
+    for name in ["a.igi", "a.png"] {
+        assert!(ran.stderr.contains(&format!("{name} stays as it was")), "{name}: {}", ran.stderr);
+    }
+    // Where there was none, there is one to go on with.
+    ok(&bench.run(&[&master[..], &["b.png"]].concat()));
+    assert_eq!(samples(&film(&bench, "b.igi")), 0);
+    // What has samples takes its place as ever.
+    ok(&bench.run(&["scene.igs", "-haltspp", "3", "-o", "a.png"]));
+    assert_eq!(samples(&film(&bench, "a.igi")), 40 * 30 * 3);
+}
+
 #[test]
 fn independent_renders_add_up() {
     let bench = Workbench::new(SAVED);
@@ -60,6 +82,10 @@ fn independent_renders_add_up() {
     assert_eq!(sum, expected);
     ok(&bench.run(&["scene.igs", "-haltspp", "7", "-r", "sum.igi", "-o", "on.png"]));
     assert_eq!(samples(&film(&bench, "on.igi")), 40 * 30 * 7);
+    let before = std::fs::read(bench.path("1.igi")).expect("the film");
+    let ran = bench.run(&["--merge", "./1.igi", "2.igi", "-o", "1.igi"]);
+    assert!(ran.status == Some(2) && ran.stderr.contains("would be overwritten"), "{ran:?}");
+    assert!(std::fs::read(bench.path("1.igi")).expect("the film") == before);
     for (films, says) in [
         (["1.igi", "1.igi"], "would count twice"),
         (["1.igi", "sum.igi"], "seed 1"),

@@ -97,6 +97,50 @@ fn a_fraction_of_a_sample_is_rounded_up_and_said() {
     assert!(told.contains("{\"key\":\"samples_per_pixel\",\"value\":\"2.00000\"}\n"), "{told}");
 }
 
+/// What is no halting condition is not taken for one without a word.
+#[test]
+fn a_halt_that_is_none_is_told() {
+    let bench = Workbench::new("<logging>false</logging>");
+    for halt in [["-halt", "0"], ["-halt", "-1"]] {
+        let ran = bench.run(&[&["scene.igs", "-haltspp", "1", "-o", "a.png"], &halt[..]].concat());
+        assert_eq!(ran.status, Some(0), "{ran:?}");
+        assert!(ran.stderr.contains(&format!("note: {} {} is never", halt[0], halt[1])), "{}", ran.stderr);
+    }
+    let ran = bench.run(&["scene.igs", "-haltspp", "0", "-halt", "0.1", "-o", "a.png"]);
+    assert_eq!(ran.status, Some(0), "{ran:?}");
+    assert!(ran.stderr.contains("note: -haltspp 0 is never"), "{}", ran.stderr);
+}
+
+/// What files are called, and what they say, comes to no terminal as a command.
+#[cfg(unix)]
+#[test]
+fn texts_from_outside_are_shown_and_do_nothing() {
+    let bench = Workbench::new("<logging>false</logging>");
+    let name = "a\x1b[2J\x07\nforged: no errors.igs";
+    let include = "<include><pathname>b\u{9b}31m&#10;forged: no errors</pathname></include></scene>";
+    bench.write(name, &scene("<logging>false</logging>"));
+    bench.write("odd.igs", &scene("").replace("</scene>", include));
+    let is_hidden = |c: char| c.is_control() && c != '\n';
+    for arguments in [
+        &["--check", name][..],
+        &["--check", "odd.igs"],
+        &["--list-files", "odd.igs"],
+        &[name, "-haltspp", "1", "-o", "a.png"],
+        &["--dumpmetadata", "a.png"],
+        &["--print-settings", name],
+    ] {
+        let ran = bench.run(arguments);
+        for text in [&ran.stdout, &ran.stderr] {
+            assert!(!text.contains(is_hidden), "{arguments:?}: {text:?}");
+            assert!(!text.lines().any(|line| line.starts_with("forged")), "{arguments:?}: {text:?}");
+        }
+    }
+    let told = bench.run(&["--dumpmetadata", "a.png"]).stdout;
+    assert!(told.contains("a\u{fffd}[2J\u{fffd}"), "the scene's name is there: {told:?}");
+    let json = bench.run(&["--check", "odd.igs", "-json"]).stdout;
+    assert!(json.contains("b\\u009b31m\\u000aforged") && !json.contains(is_hidden), "{json:?}");
+}
+
 /// Every line is JSON, the last one a summary.
 #[test]
 fn json_is_complete() {
@@ -137,6 +181,7 @@ fn json_tells_of_every_failure() {
         &["--ptest", "nowhere.igs"],
         &["bad.pigs", "-o", "a.png"],
         &["scene.igs", "-haltspp", "1", "-r", "nowhere.igi"],
+        &["scene.igs", "-nosuchoption"],
     ] {
         let ran = bench.run(&[arguments, &["--json"]].concat());
         assert!(matches!(ran.status, Some(1 | 2)), "{arguments:?}: {ran:?}");

@@ -52,6 +52,44 @@ fn a_log_of_json_has_a_line_for_each_message() {
     assert!(nowhere.stderr.contains("no log can be kept"), "{}", nowhere.stderr);
 }
 
+/// `/dev/full` takes nothing, like a full disk: that is told once, and the picture is rendered.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_log_that_cannot_be_written_is_told_of_once() {
+    let bench = Workbench::new(QUIET);
+    let ran = bench.run(&["scene.igs", "-haltspp", "2", "-o", "a.png", "--log-json", "/dev/full"]);
+    assert_eq!(ran.status, Some(0), "{ran:?}");
+    let told = "warning: the log lacks lines from now on: /dev/full: ";
+    assert_eq!(ran.stderr.matches(told).count(), 1, "{}", ran.stderr);
+    assert!(bench.path("a.png").exists());
+}
+
+/// Of files that are no logs nothing is appended to, whatever their names are: a key would be none any more.
+#[test]
+fn a_log_is_not_appended_to_another_file() {
+    let bench = Workbench::new(QUIET);
+    assert_eq!(bench.run(&["--make-key", "key"]).status, Some(0));
+    bench.write("scene.txt", &super::workbench::scene(QUIET));
+    for (name, more) in
+        [("key", &["-n", "m", "-p", "0", "-halt", "0.1", "--key-file", "key"][..]), ("scene.txt", &[])]
+    {
+        let before = std::fs::read(bench.path(name)).expect("it is there");
+        let ran =
+            bench.run(&[&["scene.igs", "-haltspp", "1", "-o", "a.png", "--log-json", name], more].concat());
+        assert_eq!(ran.status, Some(1), "{name}: {ran:?}");
+        assert!(ran.stderr.contains(&format!("no log can be kept: {name}: this is another file")), "{ran:?}");
+        assert!(std::fs::read(bench.path(name)).expect("it is there") == before, "{name} is as it was");
+    }
+    // A log is, and so is a file that is empty.
+    bench.write("log", "");
+    let lines = [1, 2].map(|_| {
+        let ran = bench.run(&["scene.igs", "-haltspp", "1", "-o", "a.png", "--log-json", "log"]);
+        assert_eq!(ran.status, Some(0), "{ran:?}");
+        std::fs::read_to_string(bench.path("log")).expect("the log").lines().count()
+    });
+    assert!(0 < lines[0] && lines[0] < lines[1], "{lines:?}");
+}
+
 /// A number of a line "name value unit".
 fn figure(text: &str, name: &str) -> f64 {
     let line = text.lines().find(|l| l.split_whitespace().next() == Some(name));

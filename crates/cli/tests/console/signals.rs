@@ -1,6 +1,6 @@
 //! Ctrl-C, and sudden death.
 
-use super::workbench::{Running, Workbench, assert_picture};
+use super::workbench::{PATIENCE, Running, Workbench, assert_picture};
 use std::process::Command;
 use std::time::{Duration, Instant};
 
@@ -24,7 +24,30 @@ fn an_interrupt_saves_and_ends_well() {
     assert_picture(&bench.path("a.png"), 40, 30);
     let said = std::fs::read_to_string(bench.path("stderr")).expect("what it said");
     assert!(said.trim_end().ends_with("Saved a.png"), "{said}");
-    assert!(said.contains("Interrupted: what was rendered is saved"), "{said}");
+    assert!(said.contains("Interrupted: saving what was rendered"), "{said}");
+}
+
+/// On a disk that is full nothing is said to be saved that is not.
+#[test]
+fn an_interrupt_promises_nothing() {
+    let size =
+        "<width>400</width><height>300</height><logging>false</logging><display_period>0.1</display_period>";
+    let mut bench = Workbench::new(size);
+    // Files end at 8 KiB, or 16 in some shells: enough for what is said, and not for the picture.
+    let limited = "trap '' XFSZ; ulimit -f 16; exec \"$0\" \"$@\"";
+    bench.wrapper = ["sh", "-c", limited].map(str::to_owned).into();
+    let mut running = bench.start(&["scene.igs", "-o", "a.png", "-t", "1"]);
+    let said = || std::fs::read_to_string(bench.path("stderr")).expect("what it said");
+    let deadline = Instant::now() + PATIENCE;
+    while !said().contains(" spp ") {
+        assert!(Instant::now() < deadline, "{}", said());
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    interrupt(&running);
+    assert_eq!(running.finish(), Some(1));
+    let said = said();
+    assert!(said.contains("Interrupted") && said.contains("cannot write a.png"), "{said}");
+    assert!(!said.contains("saved"), "{said}");
 }
 
 /// A picture so large that saving it takes much longer than pressing Ctrl-C twice.

@@ -120,7 +120,7 @@ fn a_render_ends_at_its_number_of_samples() {
     }
 }
 
-/// Samples that were counted on, and are gone with their slave, are not passed over in silence.
+/// Samples that were counted on, and are gone with their slave, are not passed over in silence, and do not end the render.
 #[test]
 fn who_dies_at_the_end_is_missed() {
     let mut farm = Farm::new("");
@@ -134,11 +134,16 @@ fn who_dies_at_the_end_is_missed() {
     farm.wait("master1.stderr", "Waiting for the last of 1 slave");
     kill(&mut slave);
     proxy.cut();
+    farm.wait("master1.stderr", "1 slave that is gone had about ");
+    farm.wait("master1.stderr", "to send that did not come: rendering goes on");
+    // Another renders what was asked for.
+    let mut other = farm.slave(2, farm.port);
     assert_eq!(farm.master.as_mut().map(super::workbench::Running::finish), Some(Some(0)));
-    let said = farm.text("master1.stderr");
-    assert!(said.contains("1 slave that is gone had about "), "{said}");
-    assert!(!said.contains("Halted"), "{said}");
-    assert_eq!(farm.film().record.expect("ours").samples, 0);
+    let spp = farm.film().film.samples_per_pixel();
+    assert!(spp >= 50.0, "{spp}");
+    farm.wait("master1.stderr", &format!("Halted with the samples per pixel that were asked for: {spp:.2}"));
+    assert_complete(&farm);
+    leave(&mut other);
 }
 
 /// A master that is started without the film that is there says so before it writes over it.
@@ -223,6 +228,21 @@ fn scenes_are_fetched_once() {
     assert_eq!(farm.text("slave2.json").matches("\"event\":\"fetching\"").count(), 0);
 }
 
+/// A scene that cannot be kept is rendered all the same.
+#[test]
+fn a_slave_needs_no_cache() {
+    let mut farm = Farm::new("");
+    farm.start_master("m", &[]);
+    farm.bench.wrapper = ["env", "INDIGO_CACHE=/dev/null"].map(str::to_owned).into();
+    let mut slave = farm.slave(1, farm.port);
+    farm.wait_for_uploads(1, 1);
+    let said = farm.text("slave1.stderr");
+    assert!(said.contains("warning: the scene cannot be kept: /dev/null/packs/"), "{said}");
+    assert!(said.contains("the variable INDIGO_CACHE may name another folder"), "{said}");
+    farm.end_master();
+    leave(&mut slave);
+}
+
 #[test]
 fn without_the_key_there_is_no_joining() {
     let mut farm = Farm::new("");
@@ -252,6 +272,9 @@ fn without_the_key_there_is_no_joining() {
     // One that cannot be written leaves nothing, and so can be tried again.
     let full = farm.bench.run_limited(0, &["--make-key", "half"]);
     assert!(full.status == Some(1) && !farm.bench.path("half").exists(), "{full:?}");
+    // Folders are made, as for all that is written.
+    let made = farm.bench.run(&["--make-key", "new/folder/key"]);
+    assert!(made.status == Some(0) && farm.bench.path("new/folder/key").exists(), "{made:?}");
     // A key is never written over.
     let again = farm.bench.run(&["--make-key", "key"]);
     assert_eq!(again.status, Some(1), "{again:?}");

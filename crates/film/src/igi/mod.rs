@@ -13,7 +13,7 @@
 //! | last | 32 bytes: the BLAKE3 hash of all before |
 //!
 //! Without the mark a file is one of another program: versions 1, 7 and 8 are read as a picture that can be
-//! developed, but not gone on with.
+//! developed, but not gone on with. Where half of the mark or more is there, and not all, the file is damaged.
 //!
 //! A *parcel* is a film on its way from a network slave to its master, and no file: the eight bytes of `PARCEL_MARK`, u32
 //! `SECTION_VERSION`, u32 width, height (internal pixels) and super-sampling factor, then the film section, with sums as

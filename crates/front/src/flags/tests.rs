@@ -24,9 +24,20 @@ fn options_stand_anywhere_with_one_dash_or_two() {
 }
 
 #[test]
+fn behind_two_dashes_are_files_alone() {
+    let a = parsed(&["-t", "2", "--", "-odd.igs"]).unwrap();
+    assert_eq!(a.files, ["-odd.igs"]);
+    assert_eq!(parsed(&["--pack", "--", "--", "-o"]).unwrap().files, ["--", "-o"]);
+}
+
+#[test]
 fn mistakes_get_a_helpful_answer() {
     let error = |words: &[&str]| parsed(words).unwrap_err();
     assert_eq!(error(&["-haltsp", "3"]), "unknown option -haltsp; did you mean -haltspp?");
+    assert_eq!(error(&["-V"]), "unknown option -V; did you mean -v?");
+    assert_eq!(error(&["-j"]), "unknown option -j; did you mean -json?");
+    assert_eq!(error(&["-HaltSPP", "3"]), "unknown option -HaltSPP; did you mean -haltspp?");
+    assert_eq!(error(&["-é"]), "unknown option -é; --help lists all options");
     assert_eq!(error(&["-halt"]), "-halt needs a value: -halt SECONDS");
     assert_eq!(error(&["-h"]), "-h needs a value: -h HOST:PORT; help is --help");
     assert_eq!(

@@ -31,6 +31,9 @@ pub fn make_key(path: &Path) -> Result<(), String> {
 
 /// All of it or nothing, and never in the place of a key that machines share already.
 fn write_key(path: &Path, key: &Key) -> std::io::Result<()> {
+    if let Some(folder) = path.parent() {
+        std::fs::create_dir_all(folder)?;
+    }
     // Who takes the name first has it.
     OpenOptions::new().write(true).create_new(true).open(path)?;
     let written = write_atomically(path, |file| {

@@ -3,6 +3,7 @@
 mod end;
 mod ready;
 
+pub use end::Gathered;
 pub use ready::{Ready, get_ready};
 
 use super::own::Own;
@@ -129,8 +130,17 @@ impl MasterRender {
             return Ok(());
         }
         options.threads = threads;
-        let Some(mut own) = self.own.take() else { return Ok(()) };
-        say_added(&own.end(&self.master, &self.saver.job().version), messages);
+        if let Some(own) = &mut self.own {
+            say_added(&own.end(&self.master, &self.saver.job().version), messages);
+        }
+        self.start_own_anew(messages)
+    }
+
+    /// Begins anew what is rendered here, if anything is, behind what it had when it was ended.
+    fn start_own_anew(&mut self, messages: &mut dyn Messages) -> Result<(), u8> {
+        if self.own.take().is_none() {
+            return Ok(());
+        }
         let own = Own::start(&self.prepared.scene, &self.prepared.options, self.own_seed, &self.master);
         self.own = Some(own.map_err(|error| fail_session(&error, messages))?);
         Ok(())

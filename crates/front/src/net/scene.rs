@@ -6,9 +6,10 @@ use indigo_diag::{Severity, Style, to_text};
 use indigo_igs::Limits;
 use indigo_igs::pack::{PackLimits, PackResolver};
 use indigo_net::slave::{Loader, SceneFiles};
-use indigo_render::disk::{DiskResolver, DiskTreeStore, read_limited};
+use indigo_render::disk::{DiskResolver, DiskTreeStore};
 use indigo_render::pool::with_jobs;
 use indigo_scene::{LoadOptions, Override, Scene, load};
+use std::sync::Arc;
 
 /// What the master's settings file is called here.
 const INIFILE: &str = "inifile.xml";
@@ -31,12 +32,16 @@ impl Resolver for SettingsFile<'_> {
 
 impl Loader for SceneLoader {
     fn load(&self, files: &SceneFiles) -> Result<Scene, String> {
-        let bytes = read_limited(&files.pack).map_err(|e| format!("{}: {e}", files.pack.display()))?;
         let outside = SettingsFile(files.settings_file.as_deref());
         let resources = DiskResolver::only(paths::resource_directories());
-        let resolver =
-            PackResolver::open(&files.name, bytes.into(), &PackLimits::default(), &outside, &resources)
-                .map_err(|error| error.to_string())?;
+        let resolver = PackResolver::open(
+            &files.name,
+            Arc::clone(&files.pack),
+            &PackLimits::default(),
+            &outside,
+            &resources,
+        )
+        .map_err(|error| error.to_string())?;
         let overrides: Vec<Override<'_>> = files
             .overrides
             .iter()

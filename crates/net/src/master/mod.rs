@@ -2,10 +2,12 @@
 
 mod listen;
 mod refusals;
+mod reports;
 mod rooms;
 mod roster;
 mod service;
 mod status;
+mod uploads;
 
 pub use roster::{Presence, Unsent};
 pub use status::{OwnStatus, SlaveStatus, Status};
@@ -282,6 +284,13 @@ impl Master {
         self.shared.is_ending.store(true, Ordering::Relaxed);
     }
 
+    /// The render goes on after all, since samples that slaves had told of did not come. What those slaves tell of is not
+    /// counted on again: who has heard of the end leaves, and comes back as another.
+    pub fn take_back_end(&self) {
+        self.shared.roster().disbelieve();
+        self.shared.is_ending.store(false, Ordering::Relaxed);
+    }
+
     /// Whether all that slaves have is in the film.
     pub fn has_all(&self) -> bool {
         self.shared.busy.load(Ordering::Relaxed) == 0 && !self.shared.roster().is_at_work(Instant::now())
@@ -378,8 +387,13 @@ fn show(
     let failed = |source| NetError::Page { address, source };
     let listener = runtime.block_on(page::listen(address)).map_err(failed)?;
     let address = listener.local_addr().map_err(failed)?;
-    let (asked, told) = (Arc::clone(shared), Arc::clone(shared));
-    let view = View { status: Arc::new(move || Status::of(&asked)), picture, read: Arc::default() };
+    let [asked, refusing, told] = [(); 3].map(|()| Arc::clone(shared));
+    let view = View {
+        status: Arc::new(move || Status::of(&asked)),
+        picture,
+        read: Arc::default(),
+        refuse: Arc::new(move |peer, reason| refusing.refused(peer, reason)),
+    };
     runtime.spawn(async move {
         if let Err(error) = page::serve(listener, view).await {
             told.tell(Event::Trouble(format!("the status page has ended: {error}")));

@@ -65,6 +65,8 @@ pub struct Slave {
     pub samples_per_second: f64,
     /// Samples that it has still to send, by its own account: of one that is lost, when it was heard of last.
     pub waiting: u64,
+    /// Whether that is counted on: what it told of has not failed to come.
+    pub is_believed: bool,
     /// Uploads that were added.
     pub uploads: u64,
     /// When the last of them came.
@@ -105,25 +107,41 @@ pub struct Introduction<'a> {
     pub threads: u32,
 }
 
+/// Why a slave cannot join.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Unwelcome {
+    /// What it renders is another's.
+    Taken(String),
+    /// There are as many as there may be.
+    Full(String),
+}
+
 impl Roster {
     /// A slave is there, for the first time or again.
     ///
     /// # Errors
     /// Why it cannot be.
-    pub fn join(&mut self, id: SlaveId, new: Introduction, now: Instant) -> Result<&Slave, String> {
+    pub fn join(&mut self, id: SlaveId, new: Introduction, now: Instant) -> Result<&Slave, Unwelcome> {
         let Introduction { name, peer, seed, threads } = new;
         let has_seed = |(other, slave): (&SlaveId, &Slave)| {
             *other != id && slave.seed == seed && slave.presence.is_there()
         };
         if let Some((_, other)) = self.slaves.iter().find(|slave| has_seed((slave.0, slave.1))) {
-            return Err(format!(
+            return Err(Unwelcome::Taken(format!(
                 "{} ({}) renders with seed {seed} already, and the same samples would come twice; give each slave \
                  another -seed, or none",
                 other.name, other.peer
-            ));
+            )));
         }
         if self.slaves.get(&id).is_some_and(|slave| slave.seed != seed) {
-            return Err("a slave has one seed".to_owned());
+            return Err(Unwelcome::Taken("a slave has one seed".to_owned()));
+        }
+        // Or one connection could take all places.
+        let shares = |(other, slave): (&SlaveId, &Slave)| {
+            *other != id && slave.peer == peer && slave.presence.is_there()
+        };
+        if self.slaves.iter().any(shares) {
+            return Err(Unwelcome::Full("a connection is one slave's, and this is another's".to_owned()));
         }
         if self.slaves.len() >= SLAVES && !self.slaves.contains_key(&id) {
             self.forget_one()?;
@@ -139,6 +157,7 @@ impl Roster {
             samples: 0,
             samples_per_second: 0.0,
             waiting: 0,
+            is_believed: true,
             uploads: 0,
             last_upload: None,
             errors: 0,
@@ -152,10 +171,10 @@ impl Roster {
     }
 
     /// Forgets whoever has been gone for longest.
-    fn forget_one(&mut self) -> Result<(), String> {
+    fn forget_one(&mut self) -> Result<(), Unwelcome> {
         let gone = self.slaves.iter().filter(|(_, slave)| !slave.presence.is_there());
         let oldest = gone.min_by_key(|(_, slave)| slave.heard).map(|(id, _)| *id);
-        let oldest = oldest.ok_or_else(|| format!("there are {SLAVES} slaves already"))?;
+        let oldest = oldest.ok_or_else(|| Unwelcome::Full(format!("there are {SLAVES} slaves already")))?;
         self.slaves.remove(&oldest);
         Ok(())
     }
@@ -247,9 +266,17 @@ impl Roster {
         self.slaves.values().map(|slave| slave.samples_per_second).sum()
     }
 
-    /// Samples that those that are there have still to send, by their own account.
+    /// Nothing of what slaves hold has come in the time that there was: that is not counted on again.
+    pub fn disbelieve(&mut self) {
+        self.slaves
+            .values_mut()
+            .filter(|slave| slave.waiting > 0)
+            .for_each(|slave| slave.is_believed = false);
+    }
+
+    /// Samples that those that are there have still to send, by their own account, if it can be counted on.
     pub fn waiting(&self) -> u64 {
-        let there = self.slaves.values().filter(|slave| slave.presence.is_there());
+        let there = self.slaves.values().filter(|slave| slave.presence.is_there() && slave.is_believed);
         there.fold(0, |sum, slave| sum.saturating_add(slave.waiting))
     }
 }
@@ -271,7 +298,9 @@ mod tests {
     fn a_seed_is_one_slaves_as_long_as_it_is_there() {
         let (mut roster, now) = (Roster::default(), Instant::now());
         assert!(roster.join([1; 16], introduction(1, 7), now).is_ok());
-        let error = roster.join([2; 16], introduction(2, 7), now).unwrap_err();
+        let Err(Unwelcome::Taken(error)) = roster.join([2; 16], introduction(2, 7), now) else {
+            panic!("the same seed")
+        };
         assert!(error.contains("box (10.0.0.1:1234) renders with seed 7"), "{error}");
         assert!(roster.join([1; 16], introduction(3, 7), now).is_ok(), "it may come again, from elsewhere");
         assert!(roster.join([1; 16], introduction(1, 8), now).is_err());
@@ -322,6 +351,31 @@ mod tests {
     }
 
     #[test]
+    fn a_connection_is_one_slaves() {
+        let (mut roster, now) = (Roster::default(), Instant::now());
+        roster.join([1; 16], introduction(1, 1), now).unwrap();
+        assert!(matches!(roster.join([2; 16], introduction(1, 2), now), Err(Unwelcome::Full(_))));
+        roster.leave(&[1; 16]).unwrap();
+        assert!(roster.join([2; 16], introduction(1, 2), now).is_ok(), "one after the other");
+    }
+
+    #[test]
+    fn who_did_not_keep_its_word_is_not_counted_on() {
+        let (mut roster, now) = (Roster::default(), Instant::now());
+        for (n, waiting) in [(1, 7), (2, 0)] {
+            roster.join([n; 16], introduction(n, n.into()), now).unwrap();
+            roster.heard(&[n; 16], now).unwrap().waiting = waiting;
+        }
+        assert_eq!(roster.waiting(), 7);
+        roster.disbelieve();
+        roster.heard(&[2; 16], now).unwrap().waiting = 5;
+        assert_eq!(roster.waiting(), 5, "the other had nothing to send, and is believed");
+        roster.join([1; 16], introduction(1, 1), now).unwrap();
+        roster.heard(&[1; 16], now).unwrap().waiting = 7;
+        assert_eq!(roster.waiting(), 5, "a new connection makes it no other");
+    }
+
+    #[test]
     fn those_that_are_gone_make_room() {
         let (mut roster, now) = (Roster::default(), Instant::now());
         let id = |n: usize| {
@@ -330,9 +384,12 @@ mod tests {
             id
         };
         for n in 0..SLAVES {
-            roster.join(id(n), introduction(1, n as u64), now + Duration::from_millis(n as u64)).unwrap();
+            let peer = ([10, 0, 0, 1], n as u16 + 1).into();
+            let new = Introduction { peer, ..introduction(1, n as u64) };
+            roster.join(id(n), new, now + Duration::from_millis(n as u64)).unwrap();
         }
-        assert!(roster.join(id(SLAVES), introduction(2, SLAVES as u64), now).is_err());
+        let one_more = roster.join(id(SLAVES), introduction(2, SLAVES as u64), now);
+        assert!(matches!(one_more, Err(Unwelcome::Full(_))));
         roster.leave(&id(17));
         assert!(roster.join(id(SLAVES), introduction(2, SLAVES as u64), now).is_ok());
         assert_eq!(roster.all().len(), SLAVES);

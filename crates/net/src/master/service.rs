@@ -2,14 +2,15 @@
 
 use super::Shared;
 use super::listen::Peer;
-use super::roster::{Introduction, Presence, SlaveId};
+use super::reports::{Report, note};
+use super::roster::{Introduction, SlaveId, Unwelcome};
+use super::uploads::{Bounds, gather, next};
 use crate::event::Event;
 use crate::ledger::{Receipt, Refusal, run_of};
-use crate::limits::{PIECE, PROTOCOL, REPORTS, REPORTS_NEAR_END, SILENCE, UPLOAD};
+use crate::limits::{PIECE, PROTOCOL, REPORTS, REPORTS_NEAR_END};
 use crate::plain::plain;
 use crate::proto::farm_server::Farm;
 use crate::proto::report_reply::Order;
-use crate::proto::report_request::State;
 use crate::proto::upload_part::Part;
 use crate::proto::{
     JoinReply, JoinRequest, LeaveReply, LeaveRequest, Piece, ReportReply, ReportRequest, SceneRequest,
@@ -18,14 +19,14 @@ use crate::proto::{
 use bytes::Bytes;
 use indigo_film::igi::{Parcel, parcel_size};
 use indigo_film::{Run, Share as _};
+use indigo_scene::schema::settings::MOST_THREADS;
 use std::net::{Ipv4Addr, SocketAddr};
 use std::pin::Pin;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 use tokio::task::spawn_blocking;
-use tokio::time::timeout;
-use tokio_stream::{Stream, StreamExt as _, iter};
+use tokio_stream::{Stream, iter};
 use tonic::{Request, Response, Status, Streaming};
 
 /// Answers calls.
@@ -45,6 +46,16 @@ impl Service {
         // It may hold what the caller has said, of whatever length.
         Status::new(status.code(), plain(status.message()))
     }
+
+    /// The same of a slave that has joined, for which it counts as an error.
+    fn refuse_slave(&self, peer: SocketAddr, id: &SlaveId, status: &Status) -> Status {
+        let status = self.refuse(peer, status);
+        if let Some(slave) = self.shared.roster().known(id) {
+            slave.errors += 1;
+            slave.last_error = Some(status.message().to_owned());
+        }
+        status
+    }
 }
 
 /// The caller's address.
@@ -57,9 +68,6 @@ fn version(program: &str) -> &str {
     program.split(',').next().unwrap_or_default()
 }
 
-/// The most samples a second that a slave is believed to render.
-const FASTEST: f64 = 1e12;
-
 /// So many characters of what another program calls itself are shown.
 const SHOWN_PROGRAM: usize = 100;
 
@@ -70,7 +78,9 @@ fn slave_id(bytes: &[u8]) -> Result<SlaveId, Status> {
 
 /// What somebody is told whom the master does not know, since it was started anew or has heard nothing for long.
 fn unknown() -> Status {
-    Status::not_found("this slave has not joined")
+    Status::not_found(
+        "the master does not know this slave: it was started anew, or has heard nothing for long",
+    )
 }
 
 /// What somebody is told when a thread of the master's has failed.
@@ -112,6 +122,10 @@ impl Farm for Service {
             return Err(self.refuse(peer, &Status::failed_precondition(what)));
         }
         let id = slave_id(&slave).map_err(|status| self.refuse(peer, &status))?;
+        if !(1..=MOST_THREADS).contains(&(threads as usize)) {
+            let what = format!("a slave tells of {threads} threads; 1 to {MOST_THREADS} can be");
+            return Err(self.refuse(peer, &Status::invalid_argument(what)));
+        }
         // Who has something left to send may come back for that.
         if shared.is_ending.load(Ordering::Relaxed) && !shared.roster().expects(&id) {
             return Err(Status::unavailable("the render is about to end"));
@@ -125,7 +139,13 @@ impl Farm for Service {
         }
         let introduction = Introduction { name: &name, peer, seed, threads };
         let joined = shared.roster().join(id, introduction, Instant::now()).map(|slave| slave.name.clone());
-        let slave = joined.map_err(|reason| self.refuse(peer, &Status::already_exists(reason)))?;
+        let slave = joined.map_err(|why| {
+            let status = match why {
+                Unwelcome::Taken(what) => Status::already_exists(what),
+                Unwelcome::Full(what) => Status::resource_exhausted(what),
+            };
+            self.refuse(peer, &status)
+        })?;
         let ((merged_end, durable_end), generation) = {
             let shared = Arc::clone(shared);
             let known = spawn_blocking(move || {
@@ -197,24 +217,20 @@ impl Farm for Service {
                 self.shared.roster().heard(&id, Instant::now());
                 Ok(Response::new(UploadReply { merged_end, durable_end, generation }))
             }
-            Err(status) => {
-                let status = self.refuse(peer, &status);
-                if let Some(slave) = self.shared.roster().known(&id) {
-                    slave.errors += 1;
-                    slave.last_error = Some(status.message().to_owned());
-                }
-                Err(status)
-            }
+            Err(status) => Err(self.refuse_slave(peer, &id, &status)),
         }
     }
 
     async fn report(&self, request: Request<ReportRequest>) -> Result<Response<ReportReply>, Status> {
-        let report = request.into_inner();
-        let id = slave_id(&report.slave)?;
+        let peer = peer_of(&request);
+        let said = request.into_inner();
+        let id = slave_id(&said.slave)?;
         // It lives, however long the film is busy.
         self.shared.roster().heard(&id, Instant::now()).ok_or_else(unknown)?;
+        let report = Report::of(&said)
+            .map_err(|what| self.refuse_slave(peer, &id, &Status::invalid_argument(what)))?;
         let shared = Arc::clone(&self.shared);
-        let noted = spawn_blocking(move || note(&shared, &id, &report));
+        let noted = spawn_blocking(move || note(&shared, &id, report));
         let durable_end = noted.await.map_err(failed)?.ok_or_else(unknown)?;
         let is_ending = self.shared.is_ending.load(Ordering::Relaxed);
         let order = if is_ending { Order::Finish } else { Order::GoOn };
@@ -250,34 +266,14 @@ impl Service {
             return Err(Status::resource_exhausted(what));
         }
         let mut parcel = shared.rooms.take(start.bytes).await.map_err(failed)?;
-        gather(&mut parcel, start.bytes, UPLOAD, stream, |bytes| {
+        let came = |bytes| {
             shared.bytes_received.fetch_add(bytes, Ordering::Relaxed);
             shared.roster().heard(&id, Instant::now());
-        })
-        .await?;
+        };
+        gather(&mut parcel, start.bytes, Bounds::new(|| shared.rooms.must_give_up()), stream, came).await?;
         let shared = Arc::clone(shared);
         spawn_blocking(move || add(&shared, id, seed, &parcel)).await.map_err(failed)?
     }
-}
-
-/// Notes a slave's report; where its units end in the file. `None` if it has not joined.
-fn note(shared: &Shared, id: &SlaveId, report: &ReportRequest) -> Option<u64> {
-    let ledger = shared.ledger();
-    let mut roster = shared.roster();
-    let slave = roster.heard(id, Instant::now())?;
-    slave.presence = match report.state() {
-        State::Loading => Presence::Loading,
-        State::Rendering => Presence::Rendering,
-        State::Done => Presence::Done,
-    };
-    let rate = report.samples_per_second;
-    slave.samples_per_second = if rate.is_finite() { rate.clamp(0.0, FASTEST) } else { 0.0 };
-    let (merged_end, durable_end) = ledger.ends(slave.seed);
-    // What has come since it last heard of that would else count as waiting, too.
-    if report.merged_end == merged_end {
-        slave.waiting = report.waiting_samples;
-    }
-    Some(durable_end)
 }
 
 /// Adds a parcel to the film, and tells of it before anybody can copy that: what a file has is told of, whatever happens then.
@@ -317,71 +313,4 @@ fn credit(shared: &Shared, id: &SlaveId, samples: u64, receipt: &Receipt) -> Str
         slave.last_upload = Some(Instant::now());
     }
     slave.name.clone()
-}
-
-/// Gathers the parts of an upload behind its beginning, within a time, and tells of the bytes of each.
-async fn gather(
-    parcel: &mut Vec<u8>,
-    length: u64,
-    time: Duration,
-    mut parts: impl Stream<Item = Result<UploadPart, Status>> + Unpin,
-    came: impl Fn(u64),
-) -> Result<(), Status> {
-    let gathered = async {
-        while let Some(part) = next(&mut parts).await? {
-            let Part::Data(data) = part else {
-                return Err(Status::invalid_argument("an upload has one beginning"));
-            };
-            if (parcel.len() + data.len()) as u64 > length {
-                return Err(Status::resource_exhausted("an upload is longer than it says"));
-            }
-            parcel.extend_from_slice(&data);
-            came(data.len() as u64);
-        }
-        if (parcel.len() as u64) < length {
-            return Err(Status::data_loss("an upload is shorter than it says"));
-        }
-        Ok(())
-    };
-    // Who gives little each time holds room that others wait for.
-    let late = |_| Err(Status::deadline_exceeded("an upload takes too long"));
-    timeout(time, gathered).await.unwrap_or_else(late)
-}
-
-/// The next part of an upload, within a time.
-async fn next(
-    parts: &mut (impl Stream<Item = Result<UploadPart, Status>> + Unpin),
-) -> Result<Option<Part>, Status> {
-    match timeout(SILENCE, parts.next()).await {
-        Ok(Some(Ok(UploadPart { part: Some(part) }))) => Ok(Some(part)),
-        Ok(Some(Ok(UploadPart { part: None }))) => {
-            Err(Status::invalid_argument("an upload has an empty part"))
-        }
-        Ok(Some(Err(status))) => Err(status),
-        Ok(None) => Ok(None),
-        Err(_) => Err(Status::deadline_exceeded("an upload has stopped in its midst")),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use tokio::time::sleep;
-
-    /// Who gives a little each time, so that it is never silent, does not hold its room for ever.
-    #[test]
-    fn an_upload_has_its_time() {
-        let clock = tokio::runtime::Builder::new_current_thread().enable_time().build();
-        clock.expect("a clock").block_on(async {
-            let drops = iter(0..).then(|_| async {
-                sleep(Duration::from_millis(5)).await;
-                Ok(UploadPart { part: Some(Part::Data(Bytes::from_static(b"."))) })
-            });
-            let (mut parcel, time) = (vec![], Duration::from_millis(200));
-            let gathered = gather(&mut parcel, u64::MAX, time, Box::pin(drops), |bytes| assert_eq!(bytes, 1));
-            let status = gathered.await.expect_err("it never ends");
-            assert!(status.message().contains("takes too long"), "{status}");
-            assert!(parcel.len() > 1, "it was not silent");
-        });
-    }
 }

@@ -24,6 +24,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::UNIX_EPOCH;
 use tokio::net::TcpListener;
 use visitors::Door;
+pub use visitors::Refuse;
 
 /// The largest picture that is shown, in bytes.
 const LARGEST_PICTURE: u64 = 256 << 20;
@@ -37,6 +38,8 @@ pub struct View {
     pub picture: PathBuf,
     /// The picture as it was read last, with its version: all who look share it.
     pub read: Arc<Mutex<(u128, Bytes)>>,
+    /// Is told of visitors who had to make room for others.
+    pub refuse: Refuse,
 }
 
 impl View {
@@ -79,8 +82,9 @@ pub async fn serve(listener: TcpListener, view: View) -> std::io::Result<()> {
     for (path, kind, content) in files {
         router = router.route(path, get(move || async move { ([(CONTENT_TYPE, kind)], content) }));
     }
+    let door = Door::new(listener, Arc::clone(&view.refuse));
     let router = router.layer(from_fn_with_state(is_local, guard)).with_state(view);
-    axum::serve(Door::new(listener), router).await
+    axum::serve(door, router).await
 }
 
 /// Sees to it that nobody else's page gets what this one shows.

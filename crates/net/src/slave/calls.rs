@@ -36,6 +36,7 @@ pub fn refusal(status: &Status) -> Outcome {
         Code::FailedPrecondition | Code::AlreadyExists | Code::InvalidArgument | Code::Unimplemented => {
             Outcome::Refused(format!("the master refuses: {message}"))
         }
+        _ if is_refused(status) => Outcome::Refused(format!("the master refuses: {message}")),
         _ => Outcome::Lost(format!("the connection to the master is lost: {message}")),
     }
 }
@@ -48,11 +49,30 @@ pub fn is_refused(status: &Status) -> bool {
 
 /// A short call's answer.
 pub async fn answer<T>(call: impl Future<Output = Result<tonic::Response<T>, Status>>) -> Result<T, Outcome> {
-    match timeout(ANSWER, call).await {
-        Ok(Ok(reply)) => Ok(reply.into_inner()),
-        Ok(Err(status)) => Err(refusal(&status)),
-        Err(_) => Err(Outcome::Lost("the master does not answer".to_owned())),
-    }
+    within_time(call).await?.map_err(|status| refusal(&status))
+}
+
+/// The same of the first call over a connection to a place, where something else than a master may be.
+pub async fn first_answer<T>(
+    call: impl Future<Output = Result<tonic::Response<T>, Status>>,
+    place: &str,
+) -> Result<T, Outcome> {
+    within_time(call).await?.map_err(|status| match status.code() {
+        // What those codes tell of is in the library's words: no master answers so.
+        Code::Internal | Code::Unknown | Code::Unimplemented => {
+            Outcome::Lost(format!("no render master answers at {place} ({})", plain(status.message())))
+        }
+        _ => refusal(&status),
+    })
+}
+
+async fn within_time<T>(
+    call: impl Future<Output = Result<tonic::Response<T>, Status>>,
+) -> Result<Result<T, Status>, Outcome> {
+    let answered = timeout(ANSWER, call).await;
+    answered
+        .map(|answer| answer.map(tonic::Response::into_inner))
+        .map_err(|_| Outcome::Lost("the master does not answer".to_owned()))
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@ use indigo_render::disk::read_limited;
 use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::SystemTime;
 use tonic::Streaming;
 
@@ -24,7 +25,7 @@ pub struct SceneFiles {
     /// What people call it.
     pub name: String,
     /// The packed scene.
-    pub pack: PathBuf,
+    pub pack: Arc<[u8]>,
     /// The master's settings file.
     pub settings_file: Option<Vec<u8>>,
     /// Settings of the master's command line.
@@ -36,14 +37,14 @@ pub fn path_of(cache: &Path, hash: &[u8]) -> PathBuf {
     cache.join(format!("{}.{ENDING}", hex(hash)))
 }
 
-/// Whether the cache has a packed scene, undamaged.
-pub fn is_cached(path: &Path, hash: &[u8]) -> bool {
-    let is_sound = read_limited(path).is_ok_and(|bytes| blake3::hash(&bytes).as_bytes() == hash);
-    if is_sound && let Ok(file) = fs::File::open(path) {
+/// A packed scene, if the cache has it undamaged.
+pub fn cached(path: &Path, hash: &[u8]) -> Option<Vec<u8>> {
+    let pack = read_limited(path).ok().filter(|pack| blake3::hash(pack).as_bytes() == hash)?;
+    if let Ok(file) = fs::File::open(path) {
         // Used just now: others are thrown away first. Where that cannot be noted, it goes sooner.
         drop(file.set_modified(SystemTime::now()));
     }
-    is_sound
+    Some(pack)
 }
 
 /// Receives a packed scene.
@@ -122,11 +123,11 @@ mod tests {
             let made = SystemTime::now() - Duration::from_secs((1000 - n) as u64);
             fs::File::open(path(n)).unwrap().set_modified(made).unwrap();
         }
-        assert!(is_cached(&path(0), &hash(0)), "and used just now");
+        assert!(cached(&path(0), &hash(0)).is_some(), "and used just now");
         keep(&path(MOST_PACKS), &MOST_PACKS.to_le_bytes()).unwrap();
         assert!(path(0).exists() && !path(1).exists() && path(2).exists());
         fs::write(path(2), b"damaged").unwrap();
-        assert!(!is_cached(&path(2), &hash(2)));
+        assert_eq!(cached(&path(2), &hash(2)), None);
         fs::remove_dir_all(folder).unwrap();
     }
 }

@@ -7,7 +7,6 @@ use crate::event::Event;
 use crate::plain::{plain, plain_lines};
 use crate::proto::{JoinReply, SceneRequest};
 use indigo_scene::Scene;
-use std::path::PathBuf;
 use std::sync::Arc;
 use tokio::task::spawn_blocking;
 
@@ -18,7 +17,7 @@ impl Life {
         let overrides = reply.overrides.iter().map(|s| [s.option.clone(), s.name.clone(), s.value.clone()]);
         let files = SceneFiles {
             name: reply.scene.clone(),
-            pack,
+            pack: pack.into(),
             settings_file: reply.settings_file.as_ref().map(|file| file.to_vec()),
             overrides: overrides.collect(),
         };
@@ -29,13 +28,13 @@ impl Life {
         })
     }
 
-    /// Sees to it that the packed scene is in the cache; where.
-    async fn fetch(&mut self, client: &mut Client, reply: &JoinReply) -> Result<PathBuf, Outcome> {
+    /// The packed scene, from the cache or the master.
+    async fn fetch(&mut self, client: &mut Client, reply: &JoinReply) -> Result<Vec<u8>, Outcome> {
         let hash = reply.pack_hash.clone();
         let path = fetch::path_of(&self.options.cache, &hash);
         let (at, of) = (path.clone(), hash.clone());
-        if self.aside(client, move || fetch::is_cached(&at, &of)).await? {
-            return Ok(path);
+        if let Some(pack) = self.aside(client, move || fetch::cached(&at, &of)).await? {
+            return Ok(pack);
         }
         self.tell(Event::Fetching { bytes: reply.pack_bytes });
         let request = SceneRequest { slave: self.id(), pack_hash: hash.clone() };
@@ -43,14 +42,15 @@ impl Life {
         let received = fetch::receive(pieces, reply.pack_bytes, &hash).await;
         let pack = received.map_err(|why| Outcome::Lost(plain(&why)))?;
         let at = path.clone();
-        let kept = self.aside(client, move || fetch::keep(&at, &pack)).await?;
-        kept.map_err(|error| {
-            let path = path.display();
-            Outcome::Broken(format!(
-                "cannot write {path}: {error}; the variable INDIGO_CACHE may name another folder to keep scenes in"
-            ))
-        })?;
-        Ok(path)
+        let (kept, pack) = self.aside(client, move || (fetch::keep(&at, &pack), pack)).await?;
+        if let Err(error) = kept {
+            // It is rendered all the same, and fetched again by the next.
+            self.tell(Event::Trouble(format!(
+                "the scene cannot be kept: {}: {error}; the variable INDIGO_CACHE may name another folder for that",
+                path.display()
+            )));
+        }
+        Ok(pack)
     }
 
     /// Does what takes a disk or long on a thread of its own: this one answers the master meanwhile.

@@ -1,7 +1,7 @@
 //! Finding a master that takes this slave.
 
 use super::Options;
-use super::calls::{Client, Outcome, answer};
+use super::calls::{Client, Outcome, first_answer};
 use super::connect::written;
 use super::visit::Life;
 use crate::discovery;
@@ -75,7 +75,7 @@ impl Life {
             name: name.clone(),
             threads: u32::try_from(*threads).unwrap_or(u32::MAX),
         };
-        let reply = answer(client.join(request)).await.map_err(|outcome| match outcome {
+        let reply = first_answer(client.join(request), &place).await.map_err(|outcome| match outcome {
             Outcome::Lost(why) if key.is_none() => Outcome::Lost(format!(
                 "{why}; if it has a key, this slave needs the same one (--key-file FILE)"
             )),

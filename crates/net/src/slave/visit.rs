@@ -8,7 +8,7 @@ use super::{Loader, Options};
 use crate::NetError;
 use crate::event::{Event, Sink};
 use crate::key::{KeyError, random_bytes};
-use crate::limits::UPLOAD;
+use crate::limits::{FASTEST, UPLOAD};
 use crate::plain::plain;
 use crate::proto::report_reply::Order;
 use crate::proto::report_request::State;
@@ -284,7 +284,8 @@ impl Life {
         let reply = answer(client.report(ReportRequest {
             slave: self.id(),
             state: state.into(),
-            samples_per_second: progress.map_or(0.0, |p| p.samples_per_second),
+            // A rate over less than a moment may be anything.
+            samples_per_second: progress.map_or(0.0, |p| p.samples_per_second).clamp(0.0, FASTEST),
             waiting_samples: self.work.as_ref().map_or(0, Work::waiting_samples),
             merged_end: self.merged_end,
         }))

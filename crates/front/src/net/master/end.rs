@@ -19,7 +19,7 @@ pub struct Gathered {
     render: MasterRender,
     /// How far it came, with the last of the slaves' samples, and the time that they took to come.
     pub progress: Progress,
-    /// Whether fewer samples came than were asked for and rendered; that was told.
+    /// Whether fewer samples came than were asked for and told of: then the render may [go on](Gathered::go_on).
     pub lacks_samples: bool,
 }
 
@@ -41,13 +41,6 @@ impl MasterRender {
         }
         self.tell_events(messages);
         let lacks_samples = *reason == HaltReason::Samples && !self.has_enough(false);
-        if let Some(what) = what_is_missing(self.master.unsent()) {
-            messages.warn(&what);
-        } else if lacks_samples {
-            messages.warn(
-                "fewer samples came than slaves had told of: go on with the film to have them all (-r)",
-            );
-        }
         Gathered { progress: self.progress(), lacks_samples, render: self }
     }
 
@@ -88,13 +81,40 @@ impl MasterRender {
 }
 
 impl Gathered {
-    /// Saves it, and ends the connections; the film, and whether all its files were written.
-    pub fn save(self, messages: &mut dyn Messages) -> (SavedFilm, bool) {
+    /// Renders on, since samples that slaves had told of did not come. Slaves that have heard of the end and sent all they had
+    /// leave as soon as that is saved, which is begun at once, and come back for more.
+    ///
+    /// # Errors
+    /// The exit status where nothing can be rendered here any more; the reason was told.
+    pub fn go_on(self, messages: &mut dyn Messages) -> Result<MasterRender, u8> {
         let Self { mut render, .. } = self;
+        let what = what_is_missing(render.master.unsent());
+        let what = what.unwrap_or_else(|| "fewer samples came than slaves had told of".to_owned());
+        messages.warn(&format!("{what}: rendering goes on"));
+        let film = render.copy(messages);
+        render.saver.begin(film, messages);
+        render.master.take_back_end();
+        render.start_own_anew(messages)?;
+        Ok(render)
+    }
+
+    /// Saves it, and ends the connections; the film, and whether all its files were written. Tells of samples that did not
+    /// come.
+    pub fn save(self, messages: &mut dyn Messages) -> (SavedFilm, bool) {
+        let Self { mut render, lacks_samples, .. } = self;
+        if let Some(what) = what_is_missing(render.master.unsent()) {
+            messages.warn(&format!("{what}: go on with the film (-r) while they run, and they send them"));
+        } else if lacks_samples {
+            messages.warn(
+                "fewer samples came than slaves had told of: go on with the film to have them all (-r)",
+            );
+        }
         let mut film = render.copy(messages);
         let mut saved = render.job().save(&film);
-        if saved.written.contains(&render.job().paths.igi())
-            && let Some(record) = film.record.clone()
+        let is_written = saved.written.contains(&render.job().paths.igi());
+        if let Some(record) = film.record.clone()
+            // Where there are none, none can be lost.
+            && (is_written || record.samples == 0)
         {
             let runs = record.runs.clone();
             render.master.saved(record);
@@ -122,12 +142,7 @@ fn what_is_missing(unsent: Unsent) -> Option<String> {
         [of(unsent.here, "still there"), of(unsent.gone, "gone")].into_iter().flatten().collect();
     let what =
         if unsent.samples > 0 { format!("about {} samples", unsent.samples) } else { "samples".to_owned() };
-    (!who.is_empty()).then(|| {
-        format!(
-            "{} had {what} to send that did not come: go on with the film (-r) while they run, and they send them",
-            who.join(" and ")
-        )
-    })
+    (!who.is_empty()).then(|| format!("{} had {what} to send that did not come", who.join(" and ")))
 }
 
 #[cfg(test)]
