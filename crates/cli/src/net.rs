@@ -44,14 +44,14 @@ pub fn make_key(path: &Path, console: &mut Console) -> u8 {
 /// A path as it can be copied into a shell.
 fn in_shell(path: &Path) -> String {
     let path = path.display().to_string();
-    let is_plain = |c: char| c.is_alphanumeric() || "/\\:._-+,@".contains(c);
-    match () {
-        () if cfg!(windows) && path.contains(|c| !is_plain(c)) => format!("\"{path}\""),
+    let is_plain = |c: char| c.is_alphanumeric() || "/:._-+,@".contains(c) || cfg!(windows) && c == '\\';
+    if path.chars().all(is_plain) {
+        path
+    } else if cfg!(windows) {
+        format!("\"{path}\"")
+    } else {
         // Within such quotes nothing has a meaning but their end.
-        () if cfg!(unix) && path.contains(|c| !is_plain(c) || c == '\\') => {
-            format!("'{}'", path.replace('\'', r"'\''"))
-        }
-        () => path,
+        format!("'{}'", path.replace('\'', r"'\''"))
     }
 }
 

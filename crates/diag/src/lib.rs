@@ -11,7 +11,7 @@ mod source;
 mod suggest;
 
 pub use render::{Style, quoted, summary_to_json, to_json, to_text};
-pub use shown::shown;
+pub use shown::{is_hidden, shown};
 pub use sink::{Diagnostic, Severity, Sink};
 pub use source::{Excerpt, Position, SourceId, SourceMap, Span, Spanned};
 pub use suggest::{Candidates, nearest};

@@ -3,7 +3,8 @@
 use std::borrow::Cow;
 
 /// Whether a character moves the cursor, hides, or turns the direction of writing of what follows it.
-pub(crate) fn is_hidden(c: char) -> bool {
+#[must_use]
+pub fn is_hidden(c: char) -> bool {
     let turns = matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     c.is_control() || turns
 }

@@ -1,10 +1,11 @@
 //! Texts of peers, before they come to terminals, logs and pages.
 
 use crate::limits::{NAME, TEXT};
+use indigo_diag::is_hidden;
 
 /// The text without what a terminal could take for a command or a log for a line of its own, and not too long.
 pub fn plain(text: &str) -> String {
-    let mut plain = cleaned(text, TEXT, |c| c == ' ' || c.is_ascii_graphic() || c.is_alphanumeric());
+    let mut plain = cleaned(text, TEXT, |c| !is_hidden(c));
     if text.chars().nth(TEXT).is_some() {
         plain.push_str("...");
     }
@@ -16,7 +17,7 @@ pub fn plain_lines(text: &str) -> String {
     /// More of them nobody reads.
     const LINES: usize = 20;
     let lines: Vec<String> =
-        text.lines().take(LINES).map(|line| cleaned(line, TEXT, |c| !c.is_control())).collect();
+        text.lines().take(LINES).map(|line| cleaned(line, TEXT, |c| !is_hidden(c))).collect();
     lines.join("\n")
 }
 

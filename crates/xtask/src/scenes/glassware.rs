@@ -44,36 +44,41 @@ impl Vessel {
     /// The liquid up to a height.
     fn liquid(&self, level: f64) -> Profile {
         let wall = &self.inside.moved_out(0.5 * self.wall)[..self.wetted(level)];
-        Profile(wall.to_vec()).then(self.surface(level))
+        let Contact { at, surface, .. } = self.contact(level);
+        let [in_wall, free] = surface;
+        Profile(wall.to_vec()).then(in_wall).to(at).then(free)
     }
 
     /// The liquid up to a height, which ends at the inside of the wall.
     fn liquid_within(&self, level: f64) -> Profile {
-        let surface = self.surface(level);
-        let Contact { at, inside, surface: meets } = self.contact(&surface);
-        Profile(self.inside.0[..=inside].to_vec()).to(at).then(surface[meets + 1..].iter().copied())
+        let Contact { at, inside: [wetted, _], surface: [_, free] } = self.contact(level);
+        Profile(wetted).to(at).to(at).then(free)
     }
 
     /// What closes a vessel that ends where a liquid begins: its inside from the lip down to there, and from there to
     /// the axis within the liquid.
     fn dry_inside(&self, level: f64) -> Vec<Point> {
-        let Contact { at, inside, .. } = self.contact(&self.surface(level));
-        let dry = self.inside.0[inside + 1..].iter().rev().copied();
+        let Contact { at, inside: [_, dry], .. } = self.contact(level);
         let depth = level - 0.01;
-        dry.chain([at, [0.5 * at[0], depth], [0.0, depth]]).collect()
+        dry.into_iter().rev().chain([at, at, [0.5 * at[0], depth], [0.0, depth]]).collect()
     }
 
     /// Where the surface of a liquid meets the inside.
-    fn contact(&self, surface: &[Point]) -> Contact {
+    fn contact(&self, level: f64) -> Contact {
         let steps =
             |points: &[Point]| points.windows(2).map(|p| [p[0], p[1]]).enumerate().collect::<Vec<_>>();
+        let surface = self.surface(level);
         let inside = steps(&self.inside.0);
         let meet = |&(k, step): &(usize, [Point; 2])| {
             let crossing = |&(i, wall): &(usize, [Point; 2])| Some((i, crossing(step, wall)?));
             let (i, at) = inside.iter().find_map(crossing)?;
-            Some(Contact { at, inside: i, surface: k })
+            let parts = |points: &[Point], last: usize| {
+                let (before, after) = points.split_at(last + 1);
+                [before, after].map(<[Point]>::to_vec)
+            };
+            Some(Contact { at, inside: parts(&self.inside.0, i), surface: parts(&surface, k) })
         };
-        steps(surface).iter().find_map(meet).expect("the surface begins in the wall and ends on the axis")
+        steps(&surface).iter().find_map(meet).expect("the surface begins in the wall and ends on the axis")
     }
 
     /// The outside of the vessel and its lip: a `bottom` that goes on, over a control point, into the wall's outside at
@@ -94,13 +99,20 @@ impl Vessel {
     fn glass(&self, outside: Profile) -> Profile {
         outside.then(self.inside.0.iter().rev().copied())
     }
+
+    /// The same with a ring where a liquid's surface meets it, as the model that ends there has: what is smoothed between
+    /// rings is then the same.
+    fn glass_of(&self, outside: Profile, level: f64) -> Profile {
+        let Contact { at, inside: [wetted, dry], .. } = self.contact(level);
+        outside.then(dry.into_iter().rev()).to(at).then(wetted.into_iter().rev())
+    }
 }
 
-/// Where two profiles meet: the point, and the numbers of the steps that cross there.
+/// Where a liquid's surface meets the inside of its vessel: the point, and the points of both before it and after it.
 struct Contact {
     at: Point,
-    inside: usize,
-    surface: usize,
+    inside: [Vec<Point>; 2],
+    surface: [Vec<Point>; 2],
 }
 
 /// Where two steps cross.
@@ -172,7 +184,8 @@ fn write_drink(
 /// Those of `out`.
 pub fn write_wine_glass(out: &mut dyn Write) -> io::Result<()> {
     let rules = "By the rules of the manual's Appendix A: the wine reaches into the wall of the glass, which displaces it.";
-    write_wine_glass_of(&[wine_glass(), bowl().liquid(WINE)], rules, out)
+    let glass = bowl().glass_of(wine_glass_outside(), WINE);
+    write_wine_glass_of(&[glass, bowl().liquid(WINE)], rules, out)
 }
 
 /// The same with explicit interfaces; here the wine is to have the higher precedence.
@@ -236,7 +249,8 @@ mod tests {
     #[test]
     fn glasses_and_liquids_are_closed_and_face_outwards() {
         let explicit = [wine_glass_outside().then(bowl().dry_inside(WINE)), bowl().liquid_within(WINE)];
-        let others = [wine_glass(), bowl().liquid(WINE), tumbler_glass(), tumbler().liquid(0.092)];
+        let filled = bowl().glass_of(wine_glass_outside(), WINE);
+        let others = [filled, wine_glass(), bowl().liquid(WINE), tumbler_glass(), tumbler().liquid(0.092)];
         for profile in explicit.into_iter().chain(others) {
             assert_solid(&profile.turned(TURN), volume(&profile));
         }
@@ -246,11 +260,34 @@ mod tests {
     /// The surface meets the wall a little above the level, and the liquid that ends there lacks what is in the wall.
     #[test]
     fn liquids_of_both_kinds_have_one_surface() {
-        let contact = bowl().contact(&bowl().surface(WINE));
+        let contact = bowl().contact(WINE);
         assert!((contact.at[1] - WINE - 0.0007).abs() < 0.0004, "{:?}", contact.at);
         let [a, b] = [bowl().liquid(WINE), bowl().liquid_within(WINE)];
-        assert!(a.0.ends_with(&b.0[contact.inside + 2..]));
         assert!(volume(&b) < volume(&a) && volume(&b) > 0.95 * volume(&a));
+        let surface = [vec![contact.at], contact.surface[1].clone()].concat();
+        assert!(a.0.ends_with(&surface) && b.0.ends_with(&surface));
+    }
+
+    /// Where both models have a surface, it has one normal: also where the explicit ones have their edge.
+    #[test]
+    fn models_of_both_kinds_have_the_same_normals() {
+        let at = bowl().contact(WINE).at;
+        let normal_of = |profile: &Profile, k: usize| {
+            let i = (0..profile.0.len()).filter(|&i| profile.0[i] == at).nth(k).expect("it meets there");
+            profile.normal(i)
+        };
+        let glass = bowl().glass_of(wine_glass_outside(), WINE);
+        let explicit = wine_glass_outside().then(bowl().dry_inside(WINE));
+        let [liquid, within] = [bowl().liquid(WINE), bowl().liquid_within(WINE)];
+        let inside = normal_of(&glass, 0);
+        let pairs = [
+            (inside, normal_of(&explicit, 0), "dry wall"),
+            (inside.map(|x| -x), normal_of(&within, 0), "wetted wall"),
+            (normal_of(&liquid, 0), normal_of(&within, 1), "surface"),
+        ];
+        for (a, b, what) in pairs {
+            assert!((a[0] - b[0]).hypot(a[1] - b[1]) < 1e-9, "{what}: {a:?}, {b:?}");
+        }
     }
 
     /// Side and bottom of the liquid lie within the wall, and more than 0.2 mm from both its faces.

@@ -7,7 +7,7 @@ use super::vector::normalize;
 pub type Point = [f64; 2];
 
 /// The outline of half a section, walked so that what it bounds is on its left: along the bottom away from
-/// the axis, up the outside.
+/// the axis, up the outside. A point given twice is a crease, over which normals are not smoothed.
 #[derive(Clone, Debug, Default)]
 pub struct Profile(pub Vec<Point>);
 
@@ -44,14 +44,18 @@ impl Profile {
     }
 
     /// The normal that points to the right of the walk at point `i`, between those of the steps to it and from
-    /// it; up or down on the axis.
-    fn normal(&self, i: usize) -> Point {
+    /// it; that of the one step at an end and on either side of a crease; up or down on the axis.
+    pub fn normal(&self, i: usize) -> Point {
         let step = |from: usize| {
             let (a, b) = (self.0[from], self.0[from + 1]);
             let [dr, dz] = [b[0] - a[0], b[1] - a[1]];
             [dz / dr.hypot(dz), -dr / dr.hypot(dz)]
         };
-        let [before, after] = [step(i.saturating_sub(1)), step(i.min(self.0.len() - 2))];
+        let is_step = |from: &usize| self.0.get(from + 1).is_some_and(|b| *b != self.0[*from]);
+        let before = i.checked_sub(1).filter(is_step);
+        let after = Some(i).filter(is_step);
+        let [before, after] =
+            [before.or(after), after.or(before)].map(|from| step(from.expect("a profile has steps")));
         if self.0[i][0] == 0.0 {
             return [0.0, before[1].signum()];
         }
@@ -72,7 +76,7 @@ impl Profile {
             }
         }
         let mut triangles = vec![];
-        for (i, pair) in self.0.windows(2).enumerate() {
+        for (i, pair) in self.0.windows(2).enumerate().filter(|(_, pair)| pair[0] != pair[1]) {
             let vertex = |k: usize, step: u32| rings[i + k] + if pair[k][0] == 0.0 { 0 } else { step % n };
             for step in 0..n {
                 let [a, b] = [vertex(0, step), vertex(0, step + 1)];
@@ -116,8 +120,10 @@ pub mod tests {
     /// That a mesh is closed, its fronts are where its normals point, and it holds a volume near `volume`, m³.
     pub fn assert_solid(mesh: &Mesh, volume: f64) {
         let mut edges = HashSet::new();
+        // Vertices of a crease differ in their normals alone.
+        let place = |i: u32| mesh.positions[i as usize].map(f64::to_bits);
         for &[a, b, c] in &mesh.triangles {
-            for edge in [[a, b], [b, c], [c, a]] {
+            for edge in [[a, b], [b, c], [c, a]].map(|edge| edge.map(place)) {
                 assert!(edges.insert(edge), "edge {edge:?} runs twice one way");
             }
             let [p, q, r] = [a, b, c].map(|i| mesh.positions[i as usize]);
@@ -141,6 +147,16 @@ pub mod tests {
         assert!(rim(a, b, 8).iter().all(|p| p[1] > 2.0), "by the outside");
         let profile = Profile(vec![[0.0, 0.0], [1.0, 0.0], a]).then(rim(a, b, 8)).to(b).to([0.0, 2.0]);
         assert_solid(&profile.turned(48), 2.0 * std::f64::consts::PI);
+    }
+
+    #[test]
+    fn creases_are_not_smoothed() {
+        let corner = [1.0, 1.0];
+        let profile = Profile(vec![[0.0, 0.0], [1.0, 0.0], corner, corner, [0.0, 1.0]]);
+        assert_solid(&profile.turned(48), std::f64::consts::PI);
+        let [wall, lid] = [2, 3].map(|i| profile.normal(i));
+        assert_eq!([wall, lid], [[1.0, 0.0], [0.0, 1.0]]);
+        assert!(profile.normal(1)[0] > 0.7 && profile.normal(1)[1] < -0.7, "elsewhere they are");
     }
 
     #[test]
