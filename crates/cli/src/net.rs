@@ -94,7 +94,10 @@ fn follow(mut render: MasterRender, console: &mut Console) -> u8 {
         // Nobody's word ends a render that has not what was asked for.
         render = match gathered.go_on(console) {
             Ok(render) => render,
-            Err(status) => return status,
+            Err(gathered) => {
+                gathered.save(console);
+                return FAILED;
+            }
         };
     }
 }

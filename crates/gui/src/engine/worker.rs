@@ -313,7 +313,13 @@ impl Worker {
 
     fn end(&mut self, reason: indigo_render::HaltReason, saves: bool) {
         let Some(run) = self.run.take() else { return };
-        let film = Arc::new(run.end(&reason, saves, &mut self.outlet));
+        let film = match run.end(&reason, saves, &mut self.outlet) {
+            Ok(film) => Arc::new(film),
+            Err(run) => {
+                self.run = Some(run);
+                return;
+            }
+        };
         self.desk.set_film(Arc::new(film.film.clone()));
         self.film = Some(film);
         self.outlet.send(Update::Phase(Phase::Halted(reason)));

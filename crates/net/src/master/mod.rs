@@ -5,6 +5,7 @@ mod refusals;
 mod reports;
 mod rooms;
 mod roster;
+mod serve;
 mod service;
 mod status;
 mod uploads;
@@ -16,10 +17,8 @@ use crate::discovery::Announcement;
 use crate::event::{Event, Sink};
 use crate::key::Key;
 use crate::ledger::{Ledger, Receipt, Refusal};
-use crate::limits::{CALLS, KEEP_ALIVE, MESSAGE, PIECE, SILENCE, UPLOADS, parcel_bytes};
-use crate::page::{self, View};
+use crate::limits::{UPLOADS, parcel_bytes};
 use crate::plain::plain;
-use crate::proto::farm_server::FarmServer;
 use crate::{NetError, tls};
 use bytes::Bytes;
 use indigo_film::{FilmRecord, FilmState, MasterFilm, SavedFilm};
@@ -27,17 +26,14 @@ use indigo_scene::{Identity, Scene};
 use refusals::Refusals;
 use rooms::Rooms;
 use roster::Roster;
-use std::net::{Ipv4Addr, Ipv6Addr, SocketAddr};
+use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
-use tokio::net::TcpListener;
 use tokio::runtime::Runtime;
 use tokio::sync::oneshot;
 use tokio_rustls::TlsAcceptor;
-use tokio_stream::wrappers::ReceiverStream;
-use tonic::transport::Server;
 
 /// A setting of the command line: the option as it was written, the setting's name, its value.
 pub type Override = [String; 3];
@@ -203,12 +199,12 @@ impl Master {
             .enable_all()
             .build()
             .map_err(NetError::Threads)?;
-        let listener = runtime.block_on(listen(is_open, port))?;
+        let listener = runtime.block_on(serve::listen(is_open, port))?;
         let address = listener.local_addr().map_err(|source| NetError::Listen { port, source })?;
         let (end, ended) = oneshot::channel::<()>();
-        runtime.spawn(serve(listener, tls, Arc::clone(&shared), ended));
-        runtime.spawn(watch(Arc::clone(&shared)));
-        let page = page.map(|(at, picture)| show(&runtime, at, picture, &shared)).transpose()?;
+        runtime.spawn(serve::serve(listener, tls, Arc::clone(&shared), ended));
+        runtime.spawn(serve::watch(Arc::clone(&shared)));
+        let page = page.map(|(at, picture)| serve::show(&runtime, at, picture, &shared)).transpose()?;
         let announcement = Announcement::start(address.port(), is_open)
             .inspect_err(|error| {
                 let what = format!("slaves have to be told where the master is (-h): {error}");
@@ -325,91 +321,6 @@ impl Master {
         if let Some(runtime) = self.runtime.take() {
             // Long enough for answers that are on their way.
             runtime.shutdown_timeout(Duration::from_millis(500));
-        }
-    }
-}
-
-/// Listens at all addresses if connections have to prove a key, else at those that only this machine can reach.
-async fn listen(is_open: bool, port: u16) -> Result<TcpListener, NetError> {
-    if is_open {
-        // Both families where the system has both.
-        if let Ok(listener) = TcpListener::bind((Ipv6Addr::UNSPECIFIED, port)).await
-            && cfg!(unix)
-        {
-            return Ok(listener);
-        }
-    }
-    let address = if is_open { Ipv4Addr::UNSPECIFIED } else { Ipv4Addr::LOCALHOST };
-    TcpListener::bind((address, port)).await.map_err(|source| NetError::Listen { port, source })
-}
-
-/// Serves until the end.
-async fn serve(
-    listener: TcpListener,
-    tls: Option<TlsAcceptor>,
-    shared: Arc<Shared>,
-    ended: oneshot::Receiver<()>,
-) {
-    /// Uploads in flight for each connection: what a gigabit network takes in the time that an answer needs across a
-    /// house, and no more than so many connections may hold together.
-    const WINDOW: u32 = 1 << 20;
-    let connections = listen::accept(listener, tls, Arc::clone(&shared));
-    let farm = FarmServer::new(service::Service::new(Arc::clone(&shared)))
-        .max_decoding_message_size(MESSAGE)
-        .max_encoding_message_size(MESSAGE);
-    let served = Server::builder()
-        .http2_keepalive_interval(Some(KEEP_ALIVE))
-        .http2_keepalive_timeout(Some(SILENCE))
-        .max_concurrent_streams(CALLS)
-        .concurrency_limit_per_connection(CALLS as usize)
-        .initial_stream_window_size(WINDOW)
-        .initial_connection_window_size(2 * WINDOW)
-        // A piece in one frame.
-        .max_frame_size(Some(2 * PIECE as u32))
-        .http2_max_header_list_size(16 << 10)
-        .add_service(farm)
-        .serve_with_incoming_shutdown(ReceiverStream::new(connections), async {
-            drop(ended.await);
-        })
-        .await;
-    if let Err(error) = served {
-        shared.tell(Event::Trouble(format!("the network server has ended: {error}")));
-    }
-}
-
-/// Begins to show how things stand; where.
-fn show(
-    runtime: &Runtime,
-    address: SocketAddr,
-    picture: PathBuf,
-    shared: &Arc<Shared>,
-) -> Result<SocketAddr, NetError> {
-    let failed = |source| NetError::Page { address, source };
-    let listener = runtime.block_on(page::listen(address)).map_err(failed)?;
-    let address = listener.local_addr().map_err(failed)?;
-    let [asked, refusing, told] = [(); 3].map(|()| Arc::clone(shared));
-    let view = View {
-        status: Arc::new(move || Status::of(&asked)),
-        picture,
-        read: Arc::default(),
-        refuse: Arc::new(move |peer, reason| refusing.refused(peer, reason)),
-    };
-    runtime.spawn(async move {
-        if let Err(error) = page::serve(listener, view).await {
-            told.tell(Event::Trouble(format!("the status page has ended: {error}")));
-        }
-    });
-    Ok(address)
-}
-
-/// Looks now and then who has been silent for too long.
-async fn watch(shared: Arc<Shared>) {
-    let mut ticks = tokio::time::interval(Duration::from_secs(1));
-    loop {
-        ticks.tick().await;
-        let lost = shared.roster().expire(Instant::now());
-        for slave in lost {
-            shared.tell(Event::Lost { slave: slave.name, peer: slave.peer });
         }
     }
 }

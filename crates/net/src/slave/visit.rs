@@ -32,6 +32,9 @@ const UPLOADS: [f64; 2] = [0.01, 365.0 * 86_400.0];
 /// Time between reports at the end of a render, when the master waits for all its slaves.
 const WHILE_ENDING: Duration = Duration::from_millis(250);
 
+/// So long a call may take before that is told.
+const PATIENCE: Duration = Duration::from_secs(30);
+
 /// A time that a master has asked for, within bounds.
 fn period(seconds: f64, [shortest, longest]: [f64; 2]) -> Duration {
     Duration::from_secs_f64(if seconds.is_nan() { longest } else { seconds.clamp(shortest, longest) })
@@ -306,10 +309,15 @@ impl Life {
         call: impl Future<Output = T>,
     ) -> Result<T, Outcome> {
         let mut call = std::pin::pin!(call);
+        let mut patience_ends = Some(Instant::now() + PATIENCE);
         loop {
             tokio::select! {
                 given = &mut call => return Ok(given),
                 () = sleep_until(self.next_report) => {
+                    if patience_ends.take_if(|end| Instant::now() >= *end).is_some() && self.work.is_some() {
+                        let what = "the master has not taken an upload for 30 s: it is busy, or the network is slow; rendering goes on";
+                        self.tell(Event::Trouble(what.to_owned()));
+                    }
                     if self.report(client).await? == Order::Finish {
                         let work = self.work.as_ref().ok_or(Outcome::Finished)?;
                         work.engine.rest(true);

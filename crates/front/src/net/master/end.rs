@@ -85,8 +85,8 @@ impl Gathered {
     /// leave as soon as that is saved, which is begun at once, and come back for more.
     ///
     /// # Errors
-    /// The exit status where nothing can be rendered here any more; the reason was told.
-    pub fn go_on(self, messages: &mut dyn Messages) -> Result<MasterRender, u8> {
+    /// What was gathered where nothing can be rendered here any more; the reason was told.
+    pub fn go_on(self, messages: &mut dyn Messages) -> Result<MasterRender, Box<Self>> {
         let Self { mut render, .. } = self;
         let what = what_is_missing(render.master.unsent());
         let what = what.unwrap_or_else(|| "fewer samples came than slaves had told of".to_owned());
@@ -94,8 +94,10 @@ impl Gathered {
         let film = render.copy(messages);
         render.saver.begin(film, messages);
         render.master.take_back_end();
-        render.start_own_anew(messages)?;
-        Ok(render)
+        match render.start_own_anew(messages) {
+            Ok(()) => Ok(render),
+            Err(_) => Err(Self { render, ..self }.into()),
+        }
     }
 
     /// Saves it, and ends the connections; the film, and whether all its files were written. Tells of samples that did not

@@ -1,7 +1,7 @@
 //! A render under way, and what is shown of it.
 
 use super::Open;
-use super::source::{Alone, Many, Source};
+use super::source::{Alone, Ended, Many, Source};
 use crate::engine::{Desk, Outlet, Phase, Update};
 use crate::part::Part;
 use crate::words;
@@ -204,12 +204,19 @@ impl Run {
     }
 
     /// The film at the end, after its files were written if they are wanted.
-    pub fn end(self, reason: &HaltReason, saves: bool, outlet: &mut Outlet) -> SavedFilm {
+    ///
+    /// # Errors
+    /// The render where it goes on after all: slaves have not sent samples that they had told of.
+    pub fn end(self, reason: &HaltReason, saves: bool, outlet: &mut Outlet) -> Result<SavedFilm, Self> {
         if let Some(status) = self.source.slaves() {
             outlet.send(Update::Slaves(Box::new(status)));
         }
-        let (progress, film) = self.source.end(reason, saves, outlet);
-        outlet.tell_progress(progress);
-        film
+        match self.source.end(reason, saves, outlet) {
+            Ended::Film(progress, film) => {
+                outlet.tell_progress(progress);
+                Ok(*film)
+            }
+            Ended::GoesOn(source) => Err(Self { source, ..self }),
+        }
     }
 }

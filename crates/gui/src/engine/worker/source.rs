@@ -35,15 +35,18 @@ pub trait Source: Send {
     fn adjust(&mut self, work: &Work, messages: &mut dyn Messages) -> Result<(), HaltReason>;
     /// Ends it by wish; the reason.
     fn stop(&mut self) -> HaltReason;
-    /// How far it came, and the film, after its files were written if they are wanted.
-    fn end(
-        self: Box<Self>,
-        reason: &HaltReason,
-        saves: bool,
-        messages: &mut dyn Messages,
-    ) -> (Progress, SavedFilm);
+    /// Ends it, and writes its files if they are wanted.
+    fn end(self: Box<Self>, reason: &HaltReason, saves: bool, messages: &mut dyn Messages) -> Ended;
     /// How things stand with slaves, where there can be any.
     fn slaves(&self) -> Option<Status>;
+}
+
+/// What becomes of a render that is to end.
+pub enum Ended {
+    /// How far it came, and the film.
+    Film(Progress, Box<SavedFilm>),
+    /// It has not what was asked for after all, and goes on.
+    GoesOn(Box<dyn Source>),
 }
 
 /// What the controls say becomes a session's options. Time that was rendered already counts.

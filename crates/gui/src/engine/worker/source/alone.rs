@@ -1,6 +1,6 @@
 //! A render of this machine alone.
 
-use super::{Source, set};
+use super::{Ended, Source, set};
 use crate::work::Work;
 use indigo_film::{FilmState, SavedFilm};
 use indigo_front::messages::{Messages, say_saved};
@@ -111,12 +111,7 @@ impl Source for Alone {
         }
     }
 
-    fn end(
-        mut self: Box<Self>,
-        reason: &HaltReason,
-        saves: bool,
-        messages: &mut dyn Messages,
-    ) -> (Progress, SavedFilm) {
+    fn end(mut self: Box<Self>, reason: &HaltReason, saves: bool, messages: &mut dyn Messages) -> Ended {
         self.saver.wait_for_last(messages);
         if let HaltReason::Failed(message) = reason {
             messages.error(message);
@@ -126,7 +121,7 @@ impl Source for Alone {
         if saves {
             say_saved(&self.job().save(&film), messages);
         }
-        (self.with_before(&progress), film)
+        Ended::Film(self.with_before(&progress), film.into())
     }
 
     fn slaves(&self) -> Option<Status> {

@@ -1,6 +1,6 @@
 //! A render of many machines, of which this is the master.
 
-use super::{Source, set};
+use super::{Ended, Source, set};
 use crate::words;
 use crate::work::Work;
 use indigo_film::{FilmState, SavedFilm};
@@ -80,15 +80,10 @@ impl Source for Many {
         HaltReason::Stopped
     }
 
-    fn end(
-        self: Box<Self>,
-        reason: &HaltReason,
-        saves: bool,
-        messages: &mut dyn Messages,
-    ) -> (Progress, SavedFilm) {
+    fn end(self: Box<Self>, reason: &HaltReason, saves: bool, messages: &mut dyn Messages) -> Ended {
         let mut render = self.0;
         if !saves {
-            return (render.progress(), render.discard(messages));
+            return Ended::Film(render.progress(), render.discard(messages).into());
         }
         if let HaltReason::Failed(message) = reason {
             messages.error(message);
@@ -96,9 +91,15 @@ impl Source for Many {
         if let Some(slaves) = render.begin_end(messages) {
             messages.say(&words::waiting_for(&slaves));
         }
-        let gathered = render.gather(reason, messages);
+        let mut gathered = render.gather(reason, messages);
+        if gathered.lacks_samples {
+            match gathered.go_on(messages) {
+                Ok(render) => return Ended::GoesOn(Box::new(Self(render))),
+                Err(back) => gathered = *back,
+            }
+        }
         let progress = gathered.progress;
-        (progress, gathered.save(messages).0)
+        Ended::Film(progress, gathered.save(messages).0.into())
     }
 
     fn slaves(&self) -> Option<Status> {
