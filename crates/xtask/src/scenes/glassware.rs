@@ -59,8 +59,9 @@ impl Vessel {
     /// the axis within the liquid.
     fn dry_inside(&self, level: f64) -> Vec<Point> {
         let Contact { at, inside: [_, dry], .. } = self.contact(level);
-        let depth = level - 0.01;
-        dry.into_iter().rev().chain([at, at, [0.5 * at[0], depth], [0.0, depth]]).collect()
+        // Steeper than the meniscus: a way above it would leave glass on the liquid.
+        let below = [[at[0] - 0.001, level - 0.002], [0.5 * at[0], level - 0.01], [0.0, level - 0.01]];
+        dry.into_iter().rev().chain([at, at]).chain(below).collect()
     }
 
     /// Where the surface of a liquid meets the inside.
@@ -287,6 +288,30 @@ mod tests {
         ];
         for (a, b, what) in pairs {
             assert!((a[0] - b[0]).hypot(a[1] - b[1]) < 1e-9, "{what}: {a:?}, {b:?}");
+        }
+    }
+
+    /// What closes the explicit glass is not to be seen, for the liquid is all round it.
+    #[test]
+    fn what_closes_the_glass_lies_within_the_liquid() {
+        let liquid = bowl().liquid_within(WINE).0;
+        let at = bowl().contact(WINE).at;
+        let dry = bowl().dry_inside(WINE);
+        let edge = dry.iter().rposition(|p| *p == at).expect("it begins where the liquid ends");
+        // By the parity of the liquid's outline to the right, away from the axis.
+        let is_within = |[r, z]: Point| {
+            let crosses = |pair: &&[Point]| {
+                let ([a, u], [b, v]) = (pair[0], pair[1]);
+                (u > z) != (v > z) && a + (z - u) / (v - u) * (b - a) > r
+            };
+            liquid.windows(2).filter(crosses).count() % 2 == 1
+        };
+        for (i, pair) in dry[edge..].windows(2).enumerate() {
+            for k in usize::from(i == 0)..200 {
+                let t = k as f64 / 200.0;
+                let p = [0, 1].map(|c| pair[0][c] + t * (pair[1][c] - pair[0][c]));
+                assert!(is_within(p), "{p:?}");
+            }
         }
     }
 
