@@ -154,7 +154,9 @@ impl Console {
         let failure = self.json_log.as_mut().and_then(|log| {
             let time = utc(SystemTime::now());
             let message = quoted(message);
-            log.write(&format!("{{\"time\":\"{time}\",\"level\":\"{level}\",\"message\":{message}{fields}}}"))
+            log.write(&format!(
+                "{START_OF_LINE}{time}\",\"level\":\"{level}\",\"message\":{message}{fields}}}"
+            ))
         });
         self.tell_failure(failure);
     }
@@ -305,14 +307,19 @@ impl Log {
     }
 }
 
+/// How each line of such a log begins.
+const START_OF_LINE: &str = "{\"time\":\"";
+
 /// Whether what is there is nothing yet, a log as this one writes it, or no file that keeps anything.
 fn may_be_json_log(path: &Path) -> std::io::Result<bool> {
     if !std::fs::metadata(path).is_ok_and(|meta| meta.is_file()) {
         return Ok(true);
     }
-    let mut first = [0];
-    let length = File::open(path)?.read(&mut first)?;
-    Ok(length == 0 || first == *b"{")
+    let mut start = vec![];
+    let length = File::open(path)?.take(64).read_to_end(&mut start)?;
+    // A line that did not reach it leaves its end.
+    let is_line = start.trim_ascii_start().starts_with(START_OF_LINE.as_bytes());
+    Ok(length == 0 || is_line)
 }
 
 /// A message without colour codes.

@@ -15,7 +15,7 @@ pub struct Claim {
 
 impl Claim {
     /// Claims the name of a film, which stands for all files of a render: pictures that differ in it only share the film. The
-    /// folder must be there, if anybody can write there.
+    /// film's folder must be there.
     ///
     /// # Errors
     /// The exit status where another render has it; that was told.

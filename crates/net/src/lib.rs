@@ -42,10 +42,10 @@ use indigo_film::FilmError;
 use std::io::ErrorKind;
 
 /// What may help where a port cannot be listened at.
-fn way_out(why: &std::io::Error) -> &'static str {
+fn way_out(why: &std::io::Error, port: u16) -> &'static str {
     match why.kind() {
         ErrorKind::AddrInUse => "another master may be running, or choose another port with -p",
-        ErrorKind::PermissionDenied => {
+        ErrorKind::PermissionDenied if port < 1024 => {
             "those below 1024 are the system's own as a rule: choose another port with -p"
         }
         _ => "choose another port with -p",
@@ -56,7 +56,7 @@ fn way_out(why: &std::io::Error) -> &'static str {
 #[derive(Debug, thiserror::Error)]
 pub enum NetError {
     /// The port cannot be listened at.
-    #[error("cannot listen at port {port}: {source}; {}", way_out(.source))]
+    #[error("cannot listen at port {port}: {source}; {}", way_out(.source, *.port))]
     Listen {
         /// The port.
         port: u16,

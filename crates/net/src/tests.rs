@@ -618,7 +618,10 @@ fn who_is_refused_goes_on_to_the_next_master() {
     // Something else listens there.
     let page = ours.master.page().expect("there is one");
     let Err(Outcome::Lost(why)) = joined(&mut life, &[page]) else { panic!("a page is no master") };
-    assert!(why.contains(&format!("no render master answers at {page}")), "{why}");
+    assert!(
+        why.contains(&format!("what is at {page} does not answer as a render master without a key does")),
+        "{why}"
+    );
     // One that let it in, and had a scene that could not be loaded.
     life.turn_down(places[1]);
     let twins = Bench::new(None);

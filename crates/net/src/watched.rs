@@ -19,6 +19,7 @@ pub struct Watched<S> {
     awaits: Awaited,
     /// Its place among those that are counted, which it may have to give to another.
     place: Option<oneshot::Receiver<()>>,
+    has_lost_place: bool,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -30,7 +31,8 @@ enum Awaited {
 impl<S> Watched<S> {
     /// From now on.
     pub fn new(stream: S, patience: Duration) -> Self {
-        Self { stream, patience, alarm: Box::pin(sleep(patience)), awaits: Awaited::Words, place: None }
+        let alarm = Box::pin(sleep(patience));
+        Self { stream, patience, alarm, awaits: Awaited::Words, place: None, has_lost_place: false }
     }
 
     /// The same for a peer that asks, and then may listen for long without a word: between answers, or parts of one, there must
@@ -45,14 +47,18 @@ impl<S> Watched<S> {
         self.alarm.as_mut().reset(next);
     }
 
+    /// Fails once its place is another's, also where there is always something to read and room to write.
+    fn has_place(&mut self, cx: &mut Context<'_>) -> io::Result<()> {
+        if self.place.as_mut().is_some_and(|place| Pin::new(place).poll(cx).is_ready()) {
+            // Asked again the channel would have no answer.
+            self.place = None;
+            self.has_lost_place = true;
+        }
+        if self.has_lost_place { Err(io::Error::other("another has its place")) } else { Ok(()) }
+    }
+
     /// What becomes of a call that has to wait.
     fn pending<T>(&mut self, cx: &mut Context<'_>) -> Poll<io::Result<T>> {
-        let is_taken = self.place.as_mut().is_some_and(|place| Pin::new(place).poll(cx).is_ready());
-        if is_taken {
-            // Asked again it would have no answer.
-            self.place = None;
-            return Poll::Ready(Err(io::Error::other("another has its place")));
-        }
         ready!(self.alarm.as_mut().poll(cx));
         Poll::Ready(Err(io::Error::new(ErrorKind::TimedOut, "the other side is silent")))
     }
@@ -74,6 +80,7 @@ impl<S: AsyncRead + Unpin> AsyncRead for Watched<S> {
         cx: &mut Context<'_>,
         buf: &mut ReadBuf<'_>,
     ) -> Poll<io::Result<()>> {
+        self.has_place(cx)?;
         match Pin::new(&mut self.stream).poll_read(cx, buf) {
             Poll::Ready(read) => {
                 if self.awaits == Awaited::Words {
@@ -88,6 +95,7 @@ impl<S: AsyncRead + Unpin> AsyncRead for Watched<S> {
 
 impl<S: AsyncWrite + Unpin> AsyncWrite for Watched<S> {
     fn poll_write(mut self: Pin<&mut Self>, cx: &mut Context<'_>, buf: &[u8]) -> Poll<io::Result<usize>> {
+        self.has_place(cx)?;
         let written = Pin::new(&mut self.stream).poll_write(cx, buf);
         self.written(cx, written)
     }
@@ -97,6 +105,7 @@ impl<S: AsyncWrite + Unpin> AsyncWrite for Watched<S> {
         cx: &mut Context<'_>,
         bufs: &[io::IoSlice<'_>],
     ) -> Poll<io::Result<usize>> {
+        self.has_place(cx)?;
         let written = Pin::new(&mut self.stream).poll_write_vectored(cx, bufs);
         self.written(cx, written)
     }

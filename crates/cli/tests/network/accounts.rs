@@ -1,6 +1,6 @@
 //! What logs tell of uploads, added up.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A log of `--log-json`.
 pub struct Log(pub String);
@@ -36,25 +36,21 @@ pub fn number(line: &str, name: &str) -> u64 {
 }
 
 /// Samples of one seed up to unit `end`, by what the logs tell. An upload that was sent again, alone or with others, is in
-/// the logs more than once; those of the smallest pieces tell all.
+/// the logs more than once; so is what a working master rendered again after a death, in other pieces. Some of all those
+/// follow one another from the first unit to the last.
 pub fn samples_up_to(logs: &[Log], seed: u64, end: u64) -> u64 {
-    // By the first unit; of several the one that ends first is a piece of the others.
-    let mut pieces: BTreeMap<u64, Upload> = BTreeMap::new();
-    for upload in logs.iter().flat_map(Log::uploads).filter(|upload| upload.seed == seed) {
-        let piece = pieces.entry(upload.first).or_insert(upload);
-        if upload.end < piece.end {
-            *piece = upload;
-        } else if upload.end == piece.end {
-            assert_eq!(upload, *piece, "an upload is always the same");
-        }
+    let uploads = logs.iter().flat_map(Log::uploads).filter(|upload| upload.seed == seed);
+    // In the order of their first units: how a place is reached is known before anything goes on from there.
+    let pieces: BTreeSet<Upload> = uploads.collect();
+    let mut reached = BTreeMap::from([(0, 0)]);
+    for piece in &pieces {
+        let Some(before) = reached.get(&piece.first) else { continue };
+        let samples = before + piece.samples;
+        assert_eq!(
+            *reached.entry(piece.end).or_insert(samples),
+            samples,
+            "{piece:?}: units are always the same"
+        );
     }
-    let (mut at, mut samples) = (0, 0);
-    while at < end {
-        let piece = pieces.get(&at).unwrap_or_else(|| {
-            panic!("no log tells of unit {at} of seed {seed}, but {:?}", pieces.range(at..).next())
-        });
-        assert!(piece.end <= end, "the film ends at {end}, within {piece:?}");
-        (at, samples) = (piece.end, samples + piece.samples);
-    }
-    samples
+    *reached.get(&end).unwrap_or_else(|| panic!("the logs tell of {pieces:?}, and the film ends at {end}"))
 }

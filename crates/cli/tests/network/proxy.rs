@@ -10,6 +10,8 @@ use std::time::Duration;
 #[derive(Default)]
 struct Faults {
     is_cut: AtomicBool,
+    /// Nothing passes, and nothing is lost.
+    is_held: AtomicBool,
     /// Milliseconds that everything takes longer.
     delay_ms: AtomicU64,
     /// Bytes per second in each direction; 0: as many as come.
@@ -61,6 +63,11 @@ impl Proxy {
         self.faults.is_cut.store(false, Ordering::Relaxed);
     }
 
+    /// Lets nothing pass, as a network that stands still, or goes on.
+    pub fn hold(&self, held: bool) {
+        self.faults.is_held.store(held, Ordering::Relaxed);
+    }
+
     /// From now on everything is late, and slow.
     pub fn slow(&self, delay: Duration, bytes_per_second: u64) {
         self.faults.delay_ms.store(delay.as_millis() as u64, Ordering::Relaxed);
@@ -77,6 +84,9 @@ fn pass(mut from: TcpStream, mut to: TcpStream, faults: &Faults) {
             wait += Duration::from_secs_f64(n as f64 / speed as f64);
         }
         std::thread::sleep(wait);
+        while faults.is_held.load(Ordering::Relaxed) {
+            std::thread::sleep(Duration::from_millis(10));
+        }
         if to.write_all(&bytes[..n]).is_err() {
             break;
         }

@@ -146,6 +146,58 @@ fn who_dies_at_the_end_is_missed() {
     leave(&mut other);
 }
 
+/// A slave whose samples come when the render goes on without them renders on with it: one that has not heard of the end, and one
+/// that has ended and sends all it has.
+#[test]
+fn who_comes_after_the_end_was_taken_back_renders_on() {
+    for (upload_period, time_to_hear) in [("0.4", 0), ("20", 3)] {
+        let mut farm = Farm::new("");
+        let scene = farm
+            .text("scene.igs")
+            .replace("<frame_upload_period>0.4<", &format!("<frame_upload_period>{upload_period}<"));
+        farm.bench.write("scene.igs", &scene);
+        farm.start_master("m", &["-haltspp", "50"]);
+        let proxies = [(); 2].map(|()| Proxy::to(farm.port));
+        let mut slaves = [1, 2].map(|seed| {
+            let proxy = &proxies[seed as usize - 1];
+            proxy.slow(Duration::ZERO, 4_000);
+            farm.slave(seed, proxy.port)
+        });
+        farm.wait("master1.stderr", "Waiting for the last of 2 slaves");
+        // What the second had to send is lost, so that the first has to render more than it had told of.
+        kill(&mut slaves[1]);
+        proxies[1].cut();
+        std::thread::sleep(Duration::from_secs(time_to_hear));
+        proxies[0].hold(true);
+        farm.wait("master1.stderr", "rendering goes on");
+        proxies[0].slow(Duration::ZERO, 0);
+        proxies[0].hold(false);
+        assert_eq!(farm.master.as_mut().map(super::workbench::Running::finish), Some(Some(0)));
+        let spp = farm.film().film.samples_per_pixel();
+        assert!(spp >= 50.0, "{spp}");
+        assert_complete(&farm);
+        leave(&mut slaves[0]);
+    }
+}
+
+/// Who is told to stop while it waits before it looks for the master again looks once more.
+#[test]
+fn who_stops_between_two_tries_loses_nothing() {
+    let mut farm = Farm::new("");
+    farm.start_master("m", &[]);
+    let mut slave = farm.slave(1, farm.port);
+    farm.wait_for_uploads(1, 2);
+    farm.kill_master();
+    // So many tries in vain that the next is some seconds away.
+    farm.wait("slave1.stderr", "trying again in 8 s");
+    farm.resume_master("m");
+    leave(&mut slave);
+    assert!(!farm.text("slave1.stderr").contains("are lost"), "{}", farm.text("slave1.stderr"));
+    farm.end_master();
+    assert_all_of(&farm, &[1]);
+    assert_complete(&farm);
+}
+
 /// A master that is started without the film that is there says so before it writes over it.
 #[test]
 fn a_film_is_not_written_over_without_a_word() {

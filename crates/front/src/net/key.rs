@@ -19,6 +19,10 @@ const KEY: &str = "INDIGO_KEY";
 /// Why there is none, in words.
 pub fn make_key(path: &Path) -> Result<(), String> {
     let key = Key::random().map_err(|error| error.to_string())?;
+    if let Some(folder) = path.parent() {
+        let made = std::fs::create_dir_all(folder);
+        made.map_err(|error| format!("cannot make the folder {}: {error}", folder.display()))?;
+    }
     let written = write_key(path, &key);
     let path = path.display();
     written.map_err(|error| match error.kind() {
@@ -31,9 +35,6 @@ pub fn make_key(path: &Path) -> Result<(), String> {
 
 /// All of it or nothing, and never in the place of a key that machines share already.
 fn write_key(path: &Path, key: &Key) -> std::io::Result<()> {
-    if let Some(folder) = path.parent() {
-        std::fs::create_dir_all(folder)?;
-    }
     // Who takes the name first has it.
     OpenOptions::new().write(true).create_new(true).open(path)?;
     let written = write_atomically(path, |file| {

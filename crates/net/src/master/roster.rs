@@ -65,7 +65,7 @@ pub struct Slave {
     pub samples_per_second: f64,
     /// Samples that it has still to send, by its own account: of one that is lost, when it was heard of last.
     pub waiting: u64,
-    /// Whether that is counted on: what it told of has not failed to come.
+    /// Whether that is counted on: what it told of has not failed to come, or something of it came since.
     pub is_believed: bool,
     /// Uploads that were added.
     pub uploads: u64,
@@ -266,12 +266,22 @@ impl Roster {
         self.slaves.values().map(|slave| slave.samples_per_second).sum()
     }
 
-    /// Nothing of what slaves hold has come in the time that there was: that is not counted on again.
+    /// Not all that slaves hold has come in the time that there was: what those tell of that hold it is counted on again when
+    /// something of it has come.
     pub fn disbelieve(&mut self) {
-        self.slaves
-            .values_mut()
-            .filter(|slave| slave.waiting > 0)
-            .for_each(|slave| slave.is_believed = false);
+        for slave in self.slaves.values_mut().filter(|slave| slave.waiting > 0) {
+            slave.is_believed = false;
+        }
+    }
+
+    /// Samples of a slave's were added to the film.
+    pub fn credit(&mut self, id: &SlaveId, samples: u64, now: Instant) {
+        if let Some(slave) = self.slaves.get_mut(id) {
+            slave.waiting = slave.waiting.saturating_sub(samples);
+            slave.samples += samples;
+            slave.uploads += 1;
+            (slave.last_upload, slave.is_believed) = (Some(now), true);
+        }
     }
 
     /// Samples that those that are there have still to send, by their own account, if it can be counted on.
@@ -373,6 +383,8 @@ mod tests {
         roster.join([1; 16], introduction(1, 1), now).unwrap();
         roster.heard(&[1; 16], now).unwrap().waiting = 7;
         assert_eq!(roster.waiting(), 5, "a new connection makes it no other");
+        roster.credit(&[1; 16], 2, now);
+        assert_eq!(roster.waiting(), 10, "who sends something is");
     }
 
     #[test]

@@ -266,11 +266,14 @@ impl Service {
             return Err(Status::resource_exhausted(what));
         }
         let mut parcel = shared.rooms.take(start.bytes).await.map_err(failed)?;
+        let pace = Arc::clone(&parcel.pace);
         let came = |bytes| {
+            pace.add(bytes);
             shared.bytes_received.fetch_add(bytes, Ordering::Relaxed);
             shared.roster().heard(&id, Instant::now());
         };
-        gather(&mut parcel, start.bytes, Bounds::new(|| shared.rooms.must_give_up()), stream, came).await?;
+        gather(&mut parcel, start.bytes, Bounds::new(|| shared.rooms.must_give_up(&pace)), stream, came)
+            .await?;
         let shared = Arc::clone(shared);
         spawn_blocking(move || add(&shared, id, seed, &parcel)).await.map_err(failed)?
     }
@@ -305,12 +308,8 @@ fn add(shared: &Shared, id: SlaveId, seed: u64, parcel: &[u8]) -> Result<Receipt
 /// Counts an upload for its slave, which may be gone by now; the slave's name.
 fn credit(shared: &Shared, id: &SlaveId, samples: u64, receipt: &Receipt) -> String {
     let mut roster = shared.roster();
-    let Some(slave) = roster.known(id) else { return String::new() };
     if !receipt.is_repeated {
-        slave.waiting = slave.waiting.saturating_sub(samples);
-        slave.samples += samples;
-        slave.uploads += 1;
-        slave.last_upload = Some(Instant::now());
+        roster.credit(id, samples, Instant::now());
     }
-    slave.name.clone()
+    roster.known(id).map_or_else(String::new, |slave| slave.name.clone())
 }

@@ -56,11 +56,14 @@ pub async fn answer<T>(call: impl Future<Output = Result<tonic::Response<T>, Sta
 pub async fn first_answer<T>(
     call: impl Future<Output = Result<tonic::Response<T>, Status>>,
     place: &str,
+    has_key: bool,
 ) -> Result<T, Outcome> {
     within_time(call).await?.map_err(|status| match status.code() {
-        // What those codes tell of is in the library's words: no master answers so.
+        // What those codes tell of is mostly in the library's words.
         Code::Internal | Code::Unknown | Code::Unimplemented => {
-            Outcome::Lost(format!("no render master answers at {place} ({})", plain(status.message())))
+            let expected = if has_key { "a render master" } else { "a render master without a key" };
+            let why = plain(status.message());
+            Outcome::Lost(format!("what is at {place} does not answer as {expected} does ({why})"))
         }
         _ => refusal(&status),
     })

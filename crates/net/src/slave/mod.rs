@@ -6,6 +6,7 @@ mod engine;
 pub(crate) mod fetch;
 mod load;
 mod parcels;
+mod parting;
 mod reach;
 pub(crate) mod visit;
 mod work;
@@ -175,6 +176,8 @@ async fn live(mut life: Life) -> Result<(), String> {
             life.rest();
         }
     }
+    // Who is told to stop between two visits may find a master all the same.
+    let has_left = has_left || life.deliver().await.is_ok();
     life.lose(has_left, "there is no master to send them to, or to say that it has saved them").await;
     Ok(())
 }

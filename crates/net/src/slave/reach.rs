@@ -75,12 +75,15 @@ impl Life {
             name: name.clone(),
             threads: u32::try_from(*threads).unwrap_or(u32::MAX),
         };
-        let reply = first_answer(client.join(request), &place).await.map_err(|outcome| match outcome {
-            Outcome::Lost(why) if key.is_none() => Outcome::Lost(format!(
-                "{why}; if it has a key, this slave needs the same one (--key-file FILE)"
-            )),
-            outcome => outcome,
-        })?;
+        let reply =
+            first_answer(client.join(request), &place, key.is_some()).await.map_err(
+                |outcome| match outcome {
+                    Outcome::Lost(why) if key.is_none() => Outcome::Lost(format!(
+                        "{why}; if it has a key, this slave needs the same one (--key-file FILE)"
+                    )),
+                    outcome => outcome,
+                },
+            )?;
         self.tell(Event::Connected { master: place, scene: plain(&reply.scene) });
         Ok((client, reply))
     }

@@ -32,8 +32,20 @@ const UPLOADS: [f64; 2] = [0.01, 365.0 * 86_400.0];
 /// Time between reports at the end of a render, when the master waits for all its slaves.
 const WHILE_ENDING: Duration = Duration::from_millis(250);
 
-/// So long a call may take before that is told.
-const PATIENCE: Duration = Duration::from_secs(30);
+/// So long an upload may take before that is told.
+const SLOW_UPLOAD: Duration = Duration::from_secs(30);
+
+/// Why samples are lost that a master would count twice.
+pub(super) const PARTLY_THERE: &str = "the master has a part of them";
+
+/// What a master's film is of.
+pub(super) fn wanted_record(reply: &JoinReply) -> FilmRecord {
+    FilmRecord {
+        scene_hash: reply.scene_hash[..].try_into().unwrap_or_default(),
+        settings: reply.identity.iter().map(|s| (s.name.clone(), s.value.clone())).collect(),
+        ..FilmRecord::default()
+    }
+}
 
 /// A time that a master has asked for, within bounds.
 fn period(seconds: f64, [shortest, longest]: [f64; 2]) -> Duration {
@@ -135,24 +147,6 @@ impl Life {
         }
     }
 
-    /// Ends what it renders, and tells what is lost by that. Without a good-bye nobody knows what of it the master has saved.
-    pub async fn lose(&mut self, has_left: bool, reason: &'static str) {
-        let Some(mut work) = self.work.take() else { return };
-        if !work.engine.has_ended()
-            && let Some(film) = work.engine.end().await
-        {
-            work.outbox.push(film);
-        }
-        let samples = if has_left { work.outbox.waiting_samples() } else { work.outbox.samples() };
-        self.tell_lost(samples, reason);
-    }
-
-    fn tell_lost(&self, samples: u64, reason: &'static str) {
-        if samples > 0 {
-            self.tell(Event::LostSamples { samples, reason });
-        }
-    }
-
     /// Visits the master; `reached` tells whether it was there.
     pub async fn visit(&mut self, reached: &mut bool) -> Outcome {
         let mut stopped = self.stopped.clone();
@@ -193,11 +187,7 @@ impl Life {
 
     /// Sees to it that the master's scene is being rendered, and sorts out what the master has of it.
     async fn prepare(&mut self, client: &mut Client, reply: &JoinReply) -> Result<(), Outcome> {
-        let wanted = FilmRecord {
-            scene_hash: reply.scene_hash[..].try_into().unwrap_or_default(),
-            settings: reply.identity.iter().map(|s| (s.name.clone(), s.value.clone())).collect(),
-            ..FilmRecord::default()
-        };
+        let wanted = wanted_record(reply);
         if self.work.as_ref().is_some_and(|work| !work.record.differences(&wanted).is_empty()) {
             self.lose(false, "the master has another scene now, and may not have saved them").await;
         }
@@ -226,7 +216,7 @@ impl Life {
         }
         let lost = work.outbox.rejoined(reply.merged_end, reply.durable_end, reply.generation);
         work.engine.rest(false);
-        self.tell_lost(lost, "the master has a part of them");
+        self.tell_lost(lost, PARTLY_THERE);
         Ok(())
     }
 
@@ -241,7 +231,12 @@ impl Life {
             let outcome = tokio::select! {
                 _ = stopped.wait_for(|stopped| *stopped) => Some(Outcome::Stopped),
                 () = sleep_until(self.next_report) => {
-                    (self.report(client).await? == Order::Finish).then_some(Outcome::Finished)
+                    let ends = self.report(client).await? == Order::Finish;
+                    if !ends && let Some(work) = &self.work {
+                        // It may rest since an end that was taken back.
+                        work.engine.rest(false);
+                    }
+                    ends.then_some(Outcome::Finished)
                 }
                 () = sleep_until(next) => {
                     next = Instant::now() + between_uploads;
@@ -262,14 +257,17 @@ impl Life {
         }
     }
 
-    /// Stays until all that was sent is in a file of the master's: until then nobody else could send it again.
+    /// Stays until all that was sent is in a file of the master's: until then nobody else could send it again. Where the end is
+    /// taken back it comes again, to render on.
     async fn see_it_saved(&mut self, client: &mut Client) -> Result<(), Outcome> {
         let mut stopped = self.stopped.clone();
         let mut reports = interval(WHILE_ENDING);
         while self.work.as_ref().is_some_and(|work| !work.outbox.is_empty()) {
             tokio::select! {
                 _ = stopped.wait_for(|stopped| *stopped) => break,
-                _ = reports.tick() => drop(self.report(client).await?),
+                _ = reports.tick() => if self.report(client).await? == Order::GoOn {
+                    return Err(Outcome::Lost("the render goes on after all".to_owned()));
+                },
             }
         }
         Ok(())
@@ -302,25 +300,30 @@ impl Life {
     }
 
     /// What a call gives that may take long, with reports meanwhile: it may have to wait for its turn, for the network, or for a
-    /// disk. When the render ends meanwhile nothing more is rendered for it.
+    /// disk. When the render ends meanwhile nothing more is rendered for it, unless that is taken back.
     pub(super) async fn beside<T>(
         &mut self,
         client: &mut Client,
         call: impl Future<Output = T>,
     ) -> Result<T, Outcome> {
         let mut call = std::pin::pin!(call);
-        let mut patience_ends = Some(Instant::now() + PATIENCE);
+        let mut patience_ends = Some(Instant::now() + SLOW_UPLOAD);
         loop {
             tokio::select! {
                 given = &mut call => return Ok(given),
                 () = sleep_until(self.next_report) => {
                     if patience_ends.take_if(|end| Instant::now() >= *end).is_some() && self.work.is_some() {
-                        let what = "the master has not taken an upload for 30 s: it is busy, or the network is slow; rendering goes on";
-                        self.tell(Event::Trouble(what.to_owned()));
+                        let what = format!(
+                            "the master has not taken an upload for {} s: it is busy, or the network is slow",
+                            SLOW_UPLOAD.as_secs()
+                        );
+                        self.tell(Event::Trouble(what));
                     }
-                    if self.report(client).await? == Order::Finish {
-                        let work = self.work.as_ref().ok_or(Outcome::Finished)?;
-                        work.engine.rest(true);
+                    let ends = self.report(client).await? == Order::Finish;
+                    match &self.work {
+                        Some(work) => work.engine.rest(ends),
+                        None if ends => return Err(Outcome::Finished),
+                        None => {}
                     }
                 }
             }
@@ -328,7 +331,7 @@ impl Life {
     }
 
     /// Sends what waits, or else what has been rendered since; at the end both, and the session ends.
-    async fn send(&mut self, client: &mut Client, is_last: bool) -> Result<(), Outcome> {
+    pub(super) async fn send(&mut self, client: &mut Client, is_last: bool) -> Result<(), Outcome> {
         let Some(work) = &mut self.work else { return Ok(()) };
         let rest = match (is_last, work.outbox.next()) {
             (true, _) => work.engine.end().await,
@@ -382,7 +385,7 @@ impl Life {
     }
 
     /// Says good-bye. The master will notice anyhow.
-    async fn leave(&self, client: &mut Client) {
+    pub(super) async fn leave(&self, client: &mut Client) {
         drop(answer(client.leave(LeaveRequest { slave: self.id() })).await);
     }
 }

@@ -81,23 +81,21 @@ impl MasterRender {
 }
 
 impl Gathered {
-    /// Renders on, since samples that slaves had told of did not come. Slaves that have heard of the end and sent all they had
-    /// leave as soon as that is saved, which is begun at once, and come back for more.
+    /// Renders on, since samples that slaves had told of did not come. Slaves hear of it by their next reports; those that had
+    /// sent all they had come back for more.
     ///
     /// # Errors
     /// What was gathered where nothing can be rendered here any more; the reason was told.
     pub fn go_on(self, messages: &mut dyn Messages) -> Result<MasterRender, Box<Self>> {
         let Self { mut render, .. } = self;
+        if render.start_own_anew(messages).is_err() {
+            return Err(Self { render, ..self }.into());
+        }
         let what = what_is_missing(render.master.unsent());
         let what = what.unwrap_or_else(|| "fewer samples came than slaves had told of".to_owned());
         messages.warn(&format!("{what}: rendering goes on"));
-        let film = render.copy(messages);
-        render.saver.begin(film, messages);
         render.master.take_back_end();
-        match render.start_own_anew(messages) {
-            Ok(()) => Ok(render),
-            Err(_) => Err(Self { render, ..self }.into()),
-        }
+        Ok(render)
     }
 
     /// Saves it, and ends the connections; the film, and whether all its files were written. Tells of samples that did not
