@@ -32,6 +32,8 @@ pub enum Event {
         peer: SocketAddr,
         /// Threads that render there.
         threads: u32,
+        /// The random sequence that it renders, by which uploads are known for its.
+        seed: u64,
     },
     /// To a master: a slave is gone, after saying so.
     Left {
@@ -175,11 +177,12 @@ impl Event {
     pub fn fields(&self) -> Vec<(&'static str, Field)> {
         let text = |t: &dyn fmt::Display| Field::Text(t.to_string());
         match self {
-            Self::Joined { slave, peer, threads } => {
+            Self::Joined { slave, peer, threads, seed } => {
                 vec![
                     ("slave", text(slave)),
                     ("peer", text(peer)),
                     ("threads", Field::Number(f64::from(*threads))),
+                    ("seed", text(seed)),
                 ]
             }
             Self::Left { slave, peer } | Self::Lost { slave, peer } => {
@@ -246,10 +249,10 @@ impl fmt::Display for Bytes {
 impl fmt::Display for Event {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Joined { slave, peer, threads: 1 } => {
+            Self::Joined { slave, peer, threads: 1, .. } => {
                 write!(f, "{slave} ({peer}) has joined, with 1 thread")
             }
-            Self::Joined { slave, peer, threads } => {
+            Self::Joined { slave, peer, threads, .. } => {
                 write!(f, "{slave} ({peer}) has joined, with {threads} threads")
             }
             Self::Left { slave, peer } => write!(f, "{slave} ({peer}) has left"),

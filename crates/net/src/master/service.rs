@@ -155,7 +155,7 @@ impl Farm for Service {
             });
             known.await.map_err(failed)?
         };
-        shared.tell(Event::Joined { slave, peer, threads });
+        shared.tell(Event::Joined { slave, peer, threads, seed });
         let scene = &shared.scene;
         let setting = |option: &str, name: &str, value: &str| Setting {
             option: option.to_owned(),
