@@ -101,6 +101,14 @@ pub struct Arguments {
     pub version: bool,
 }
 
+impl Arguments {
+    /// Of options that are given twice the last one counts.
+    fn set(&mut self, new: Override<'static>) {
+        self.settings.retain(|earlier| earlier.setting != new.setting);
+        self.settings.push(new);
+    }
+}
+
 /// Understands a command line.
 ///
 /// # Errors
@@ -182,12 +190,12 @@ pub fn wants_json(mut arguments: impl Iterator<Item = OsString>) -> bool {
 fn apply(flag: &Flag, value: String, parsed: &mut Arguments) -> Result<(), String> {
     match flag.action {
         // The setting's own declaration checks the value.
-        Action::Setting(option, setting) => parsed.settings.push(Override { option, setting, value }),
+        Action::Setting(option, setting) => parsed.set(Override { option, setting, value }),
         Action::SwitchOn(option, setting) => {
-            parsed.settings.push(Override { option, setting, value: "true".to_owned() });
+            parsed.set(Override { option, setting, value: "true".to_owned() });
         }
         Action::Threads => {
-            parsed.settings.push(Override { option: "-t", setting: "num_threads", value });
+            parsed.set(Override { option: "-t", setting: "num_threads", value });
             let implied = "auto_choose_num_threads";
             if parsed.settings.iter().all(|setting| setting.setting != implied) {
                 parsed.settings.push(Override { option: "", setting: implied, value: "false".to_owned() });

@@ -24,6 +24,14 @@ fn options_stand_anywhere_with_one_dash_or_two() {
 }
 
 #[test]
+fn of_options_given_twice_the_last_counts() {
+    let a = parsed(&["-halt", "1", "-o", "a.png", "a.igs", "-halt", "2", "-o", "b.png"]).unwrap();
+    let settings: Vec<_> = a.settings.iter().map(|s| (s.option, s.value.as_str())).collect();
+    assert_eq!(settings, [("-halt", "2")]);
+    assert_eq!(a.output.as_deref(), Some("b.png"));
+}
+
+#[test]
 fn behind_two_dashes_are_files_alone() {
     let a = parsed(&["-t", "2", "--", "-odd.igs"]).unwrap();
     assert_eq!(a.files, ["-odd.igs"]);
