@@ -80,6 +80,14 @@ fn names_that_lead_elsewhere_are_refused() {
         let text = refusal(archive(&[("scene.igs", b"<scene/>"), (name, b"x")]));
         assert!(text.contains("is refused"), "{name}: {text}");
     }
+    for name in ["x".repeat(256), "a/".repeat(513) + "b"] {
+        assert!(
+            refusal(archive(&[("scene.igs", b"<scene/>"), (&name, b"x")]))
+                .contains("not every system allows")
+        );
+    }
+    let both = archive(&[("scene.igs", b"<scene/>"), ("A", b"x"), ("a/b/c.png", b"y")]);
+    assert!(refusal(both).contains("\"a/b/c.png\" lies in a folder that is a file, too"));
     let twice = archive(&[("scene.igs", b"<scene/>"), ("a.png", b"x"), ("A.png", b"y")]);
     assert!(refusal(twice).contains("capital letters"));
 }

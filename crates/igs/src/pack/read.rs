@@ -115,6 +115,14 @@ impl Pack {
                 return Err(PackError::Harmful { name: member.name.clone(), what });
             }
         }
+        let is_folder_too = |member: &&Member| {
+            let name = member.name.to_lowercase();
+            name.match_indices('/').any(|(end, _)| by_name.contains_key(&name[..end]))
+        };
+        if let Some(member) = members.iter().find(is_folder_too) {
+            let what = "lies in a folder that is a file, too";
+            return Err(PackError::Harmful { name: member.name.clone(), what });
+        }
         check_sizes(&members, archive_size, limits)?;
         Ok(Self { archive, members, by_name })
     }
@@ -212,12 +220,17 @@ pub(super) fn harm(name: &str) -> Option<&'static str> {
         Some("has a path that is not within the archive")
     } else if path.split('/').any(|part| part == ".." || part == ".") {
         Some("has a path that leads out of the archive")
-    } else if path.split('/').any(is_impossible) {
+    } else if path.split('/').any(is_impossible) || path.len() > LONGEST_PATH {
         Some("has a name that not every system allows")
     } else {
         None
     }
 }
+
+/// The most bytes of a file's name: what the file systems of Linux take, and nearly what those of others do.
+const LONGEST_NAME: usize = 255;
+/// The same of a path within the archive: half of what macOS takes, as there is a folder before it.
+const LONGEST_PATH: usize = 512;
 
 /// Whether a file cannot be called so on some system, or means a device there.
 fn is_impossible(name: &str) -> bool {
@@ -227,6 +240,7 @@ fn is_impossible(name: &str) -> bool {
         stem.strip_prefix(port).is_some_and(|n| n.len() == 1 && n.bytes().all(|b| b.is_ascii_digit()))
     };
     name.is_empty()
+        || name.len() > LONGEST_NAME
         || name.ends_with(['.', ' '])
         || name.chars().any(|c| c.is_control() || "<>\"|?*".contains(c))
         || DEVICES.contains(&&*stem)
