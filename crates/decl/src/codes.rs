@@ -40,7 +40,7 @@ codes! {
     UNKNOWN_ELEMENT = "W0101", "<sphere><center>0 0 1</center><radius>1</radius><material_nam>a</material_nam></sphere>";
     /// An element of a later version of the format.
     LATER_ELEMENT = "W0102", "<metadata>made by hand</metadata>";
-    /// An element that was given twice; the last one counts.
+    /// An element that was given twice, of which the last one counts, or that has no effect beside another one.
     DUPLICATE_ELEMENT = "W0103", "<rotation><matrix>1 0 0 0 1 0 0 0 1</matrix><matrix>1 0 0 0 1 0 0 0 1</matrix></rotation>";
     /// An element that still works but has a better successor.
     DEPRECATED_ELEMENT = "W0104", "<diffuse><colour>0.5 0.5 0.5</colour></diffuse>";

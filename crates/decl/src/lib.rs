@@ -31,5 +31,5 @@ pub use field::{Alternatives, Block, Field, Group, Kind, Later, Presence, Range}
 pub use mesh::{EmbeddedMesh, MeshData};
 pub use node::{Node, Slot};
 pub use parameter::{Parameter, StandIn};
-pub use resolver::{ResolveError, Resolved, Resolver};
+pub use resolver::{ResolveError, Resolved, Resolver, hint_of_shipped};
 pub use value::Value;

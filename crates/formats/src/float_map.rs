@@ -24,7 +24,14 @@ pub fn decode(bytes: &[u8], width: u32) -> Result<Image, FormatError> {
         ));
     }
     let values = bytes.as_chunks::<4>().0.iter().map(|b| f32::from_le_bytes(*b)).collect();
-    Ok(Image { width, height: width, channels: 3, pixels: Pixels::F32(values), primaries: None })
+    Ok(Image {
+        width,
+        height: width,
+        channels: 3,
+        pixels: Pixels::F32(values),
+        primaries: None,
+        notes: vec![],
+    })
 }
 
 #[cfg(test)]

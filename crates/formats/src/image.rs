@@ -1,4 +1,4 @@
-//! Pictures as plain texels: PNG, JPEG, TGA, BMP, TIFF, Radiance HDR (by the crate `image`) and EXR (by
+//! Pictures as plain texels: PNG, JPEG, TGA, BMP, Radiance HDR (by the crate `image`), TIFF (by `tiff`) and EXR (by
 //! `exr`).
 
 use std::panic::{UnwindSafe, catch_unwind};
@@ -9,7 +9,7 @@ mod exr_file;
 mod jpeg_frame;
 mod radiance;
 mod raster;
-mod tiff_samples;
+mod tiff_file;
 
 /// The widest and highest picture that is read.
 const MAX_SIDE: u32 = 32_768;
@@ -33,7 +33,12 @@ pub struct Image {
     pub pixels: Pixels,
     /// Which colours the channels are, where an EXR or Radiance file says so.
     pub primaries: Option<Primaries>,
+    /// What of the file is not in the picture, or not as one may expect: sentences about the file, "it".
+    pub notes: Vec<&'static str>,
 }
+
+/// The note of a picture that was not opaque throughout.
+const ALPHA: &str = "its alpha is dropped: it is taken as opaque throughout";
 
 /// Values of a picture in the precision of its file.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,6 +77,7 @@ pub fn decode_within(file_name: &str, bytes: &[u8], most_bytes: u64) -> Result<I
     let by_content = ::image::guess_format(bytes).ok();
     let by_name = || ::image::ImageFormat::from_path(file_name).ok();
     match by_content.or_else(by_name) {
+        Some(::image::ImageFormat::Tiff) => guarded("TIFF", || tiff_file::decode(bytes, most_bytes)),
         Some(format) if raster::is_known(format) => {
             guarded(raster::name(format), || raster::decode(format, bytes, most_bytes))
         }
@@ -119,6 +125,31 @@ fn check_memory(bytes: u64, most_bytes: u64) -> Result<(), FormatError> {
         format!("a picture that takes at most {most_bytes} bytes to decode"),
         format!("one that takes {bytes} bytes"),
     ))
+}
+
+/// The colours of texels, which come first among their samples, in the same place: a copy would be as large as the picture.
+/// Clears `is_opaque` where the sample behind the colours is an alpha, for which `opaque` is given, and is not that.
+fn colours_of<T: Copy + PartialEq>(
+    mut values: Vec<T>,
+    samples: usize,
+    colours: usize,
+    opaque: Option<T>,
+    is_opaque: &mut bool,
+) -> Vec<T> {
+    if samples == colours {
+        return values;
+    }
+    if let Some(opaque) = opaque {
+        *is_opaque &= values.iter().skip(colours).step_by(samples).all(|alpha| *alpha == opaque);
+    }
+    let texels = values.len() / samples;
+    for texel in 1..texels {
+        let from = texel * samples;
+        values.copy_within(from..from + colours, texel * colours);
+    }
+    values.truncate(texels * colours);
+    values.shrink_to_fit();
+    values
 }
 
 /// What a decoder says, as an error of ours.

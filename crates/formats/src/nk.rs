@@ -3,10 +3,10 @@
 //! The first line has four numbers: the unit (1: electron volts, 2: micrometres, 3: reciprocal centimetres, 4:
 //! nanometres), start and end of the range, and how many steps it has. Then n and k follow in pairs, at equal steps of
 //! the unit. Blanks, commas and semicolons stand between numbers. Files count intervals or points: with N pairs, a
-//! count of N − 1 or of N is taken. Text behind the last pair is ignored, and so is
-//! a byte order mark.
+//! count of N − 1 or of N is taken. Text behind the last pair is left out, and told; so is
+//! a byte order mark, in silence.
 
-use crate::error::FormatError;
+use crate::error::{FormatError, Position};
 use crate::text::Text;
 
 /// hc in eV nm (exact in the SI of 2019, here to 1e-9).
@@ -24,6 +24,8 @@ const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
 pub struct ComplexIndex {
     /// Wavelength in nm, ascending, n and k; at least one.
     samples: Vec<[f64; 3]>,
+    /// Where text behind the last pair begins, if there is any.
+    pub left_out: Option<Position>,
 }
 
 impl ComplexIndex {
@@ -94,7 +96,8 @@ pub fn read(bytes: &[u8]) -> Result<ComplexIndex, FormatError> {
     let mut samples: Vec<[f64; 3]> =
         pairs.iter().enumerate().map(|(i, &[n, k])| [to_nm(position(i)), n, k]).collect();
     samples.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    Ok(ComplexIndex { samples })
+    let left_out = text.peek().map(|_| text.error("").position);
+    Ok(ComplexIndex { samples, left_out })
 }
 
 /// The next number; `None` where none stands.

@@ -6,6 +6,8 @@ use image::{DynamicImage, ImageBuffer, ImageFormat, Luma, LumaA, Rgb, Rgba};
 use indigo_formats::image::{Pixels, decode_within};
 use indigo_testkit::allocation::{Counting, peak_of};
 use std::io::Cursor;
+use tiff::encoder::colortype::{ColorType, RGB8, RGB32Float, RGBA32Float};
+use tiff::encoder::{TiffEncoder, TiffValue};
 
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
@@ -25,6 +27,18 @@ fn encode(picture: impl Into<DynamicImage>, format: ImageFormat) -> Vec<u8> {
 
 fn flat<P: image::Pixel>(texel: P) -> ImageBuffer<P, Vec<P::Subpixel>> {
     ImageBuffer::from_pixel(SIDE, SIDE, texel)
+}
+
+fn tiff_of<C: ColorType>(value: C::Inner) -> Vec<u8>
+where
+    C::Inner: Copy,
+    [C::Inner]: TiffValue,
+{
+    let samples = vec![value; (SIDE * SIDE) as usize * C::BITS_PER_SAMPLE.len()];
+    let mut bytes = Cursor::new(Vec::new());
+    let mut encoder = TiffEncoder::new(&mut bytes).expect("a file");
+    encoder.write_image::<C>(SIDE, SIDE, &samples).expect("a picture");
+    bytes.into_inner()
 }
 
 /// A black JPEG of three components, progressive or with a scan for each of them: every code is of one bit, 0.
@@ -105,9 +119,9 @@ fn pictures() -> Vec<(&'static str, &'static str, Vec<u8>)> {
         ("colours and alpha", "a.bmp", encode(flat(Rgba([9_u8; 4])), ImageFormat::Bmp)),
         ("colours", "a.tga", encode(flat(Rgb([9_u8; 3])), ImageFormat::Tga)),
         ("a palette", "a.tga", tga_with_a_palette()),
-        ("colours", "a.tif", encode(flat(Rgb([9_u8; 3])), ImageFormat::Tiff)),
-        ("floats", "a.tif", encode(flat(Rgb([9.0_f32; 3])), ImageFormat::Tiff)),
-        ("floats and alpha", "a.tif", encode(flat(Rgba([9.0_f32; 4])), ImageFormat::Tiff)),
+        ("colours", "a.tif", tiff_of::<RGB8>(9)),
+        ("floats", "a.tif", tiff_of::<RGB32Float>(9.0)),
+        ("floats and alpha", "a.tif", tiff_of::<RGBA32Float>(9.0)),
         ("all at once", "a.jpg", encode(flat(Rgb([9_u8; 3])), ImageFormat::Jpeg)),
         ("progressive", "a.jpg", jpeg(true)),
         ("one component after the other", "a.jpg", jpeg(false)),

@@ -77,7 +77,14 @@ mod tests {
 
     #[test]
     fn all_kinds_of_pixels_become_codes() {
-        let image = |channels, pixels| Image { width: 1, height: 1, channels, pixels, primaries: None };
+        let image = |channels, pixels| Image {
+            width: 1,
+            height: 1,
+            channels,
+            pixels,
+            primaries: None,
+            notes: vec![],
+        };
         let shown = |image| on_screen(&image).pixels[0];
         assert_eq!(shown(image(3, Pixels::U8(vec![1, 2, 3]))), Color32::from_rgb(1, 2, 3));
         assert_eq!(shown(image(1, Pixels::U16(vec![0x8000]))), Color32::from_gray(128));

@@ -36,11 +36,11 @@ indigo_decl::codes! {
     BAD_INDEX = "E0103", "<mesh><embedded><triangle_set><material_name>a</material_name><tri>0 1 2</tri></triangle_set></embedded></mesh>";
     /// A set of triangles without a material.
     NO_MATERIAL = "E0104", "<mesh><embedded><triangle_set><tri>0 1 2</tri></triangle_set></embedded></mesh>";
-    /// A name for texture coordinates that are not there.
+    /// A name for texture coordinates that are not there, or have another one's name.
     BAD_UV_SET = "E0105", "<mesh><embedded><expose_uv_set><index>3</index><name>bump</name></expose_uv_set></embedded></mesh>";
     /// How many more errors an embedded mesh has than were listed.
     MORE_ERRORS = "E0106", "(more than 20 faults in one embedded mesh)";
-    /// Normals that had another length than 1 and were normalised.
+    /// Normals that had another length than 1 and were normalised, or left out where they had none.
     NOT_UNIT = "W0011", "<mesh><embedded><vertex pos=\"0 0 0\" normal=\"0 0 2\"/></embedded></mesh>";
     /// Vertices without a normal or without texture coordinates among others that have them.
     INCOMPLETE_VERTICES = "W0012", "<mesh><embedded><vertex pos=\"0 0 0\" uv0=\"0 0\"/><vertex pos=\"1 0 0\"/></embedded></mesh>";

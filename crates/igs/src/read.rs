@@ -4,7 +4,7 @@ use crate::codes;
 use crate::include::{INCLUDE, set_uids_apart};
 use crate::limits::Limits;
 use crate::{text, tree};
-use indigo_decl::{Element, Resolved, Resolver, bind};
+use indigo_decl::{Element, Resolved, Resolver, bind, hint_of_shipped};
 use indigo_diag::{Diagnostic, Sink, SourceMap, Span};
 use std::sync::Arc;
 
@@ -109,7 +109,10 @@ impl<'a> Reader<'a> {
             Ok(file) => Some(file),
             Err(error) => {
                 let message = format!("cannot read {path}");
-                self.sink.push(Diagnostic::error(codes::UNREADABLE, span, message).note(error.to_string()));
+                let unreadable = Diagnostic::error(codes::UNREADABLE, span, message);
+                let hint = hint_of_shipped(path, from, &error, self.resolver);
+                let unreadable = unreadable.expected(error.expected()).note(error.to_string());
+                self.sink.push(Diagnostic { hint, ..unreadable });
                 None
             }
         }
@@ -118,7 +121,8 @@ impl<'a> Reader<'a> {
     /// Says that a limit is exceeded, the first time: files that include each other may do so a thousand times.
     fn exceed(&mut self, span: Option<Span>, message: String) {
         if !std::mem::replace(&mut self.exceeded, true) {
-            self.sink.push(Diagnostic::error(codes::LIMIT, span, message));
+            self.sink
+                .push(Diagnostic::error(codes::LIMIT, span, message).expected("expected no more than that"));
         }
     }
 

@@ -96,12 +96,14 @@ impl Builder<'_, '_> {
         }
         if self.open.len() >= self.limits.element_depth {
             let message = format!("elements are nested deeper than {}", self.limits.element_depth);
-            self.sink.push(Diagnostic::error(codes::LIMIT, self.scanner.span(tag), message));
+            let error = Diagnostic::error(codes::LIMIT, self.scanner.span(tag), message);
+            self.sink.push(error.expected("expected no more than that"));
             return false;
         }
         if *self.elements_left == 0 {
             let message = format!("there are more than {} elements", self.limits.elements);
-            self.sink.push(Diagnostic::error(codes::LIMIT, self.scanner.span(tag), message));
+            let error = Diagnostic::error(codes::LIMIT, self.scanner.span(tag), message);
+            self.sink.push(error.expected("expected no more than that"));
             return false;
         }
         *self.elements_left -= 1;

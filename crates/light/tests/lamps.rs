@@ -38,7 +38,14 @@ fn picture() -> Texture {
         _ => [0.0, 0.01, 0.0],
     };
     let values: Vec<f32> = (0..20).flat_map(texel).collect();
-    let image = Image { width: 5, height: 4, channels: 3, pixels: Pixels::F32(values), primaries: None };
+    let image = Image {
+        width: 5,
+        height: 4,
+        channels: 3,
+        pixels: Pixels::F32(values),
+        primaries: None,
+        notes: vec![],
+    };
     Texture::new(std::sync::Arc::new(image), Curve { exponent: 1.0, a: 0.0, b: 1.0, c: 0.0 }, 0)
 }
 
@@ -267,8 +274,14 @@ fn fine_textures_have_the_flux_of_their_texels() {
     ];
     for (name, is_lit, part) in patterns {
         let texels = (0..SIDE * SIDE).map(|i| if is_lit(i % SIDE, i / SIDE) { 255 } else { 0 }).collect();
-        let image =
-            Image { width: 1024, height: 1024, channels: 1, pixels: Pixels::U8(texels), primaries: None };
+        let image = Image {
+            width: 1024,
+            height: 1024,
+            channels: 1,
+            pixels: Pixels::U8(texels),
+            primaries: None,
+            notes: vec![],
+        };
         let texture = Texture::new(std::sync::Arc::new(image), Curve::IDENTITY, 0);
         let mut cases = vec![(1, 1.0), (32, 1.0)];
         if name == DIODES {

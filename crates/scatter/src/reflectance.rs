@@ -29,7 +29,7 @@ impl Reflectance {
         colour: Option<&str>,
         resources: &mut dyn MaterialResources,
     ) -> Self {
-        let map = node.node(texture).map(|t| resources.texture(t));
+        let map = node.node(texture).map(|t| resources.fractions(t));
         if let Some(id) = map {
             std::iter::once(spectrum).chain(colour).for_each(|field| node.disregard_field(field));
             return Self::Texture(id, RgbTable::get());

@@ -1,7 +1,7 @@
 //! The stable codes of diagnostics that come from lowering a scene.
 
 indigo_decl::codes! {
-    /// A name that is defined twice; the last definition counts.
+    /// A name that is defined twice, of which the last definition counts, or that every scene has itself.
     DUPLICATE_NAME = "W0302", "<material><name>a</name><null_material/></material><material><name>a</name><null_material/></material>";
     /// Something about a mesh, picture or lamp file that its user should know.
     FILE_NOTE = "W0303", "<mesh><name>m</name><embedded></embedded></mesh><model><pos>0 0 0</pos><scale>1</scale><mesh_name>m</mesh_name></model>";
@@ -49,6 +49,12 @@ indigo_decl::codes! {
     NO_LENS = "W0325", "(an orthographic `camera` with an `obstacle_map`)";
     /// A file that cannot be had, which something stands in for.
     PLACEHOLDER = "W0326", "<renderer_settings><placeholders>true</placeholders></renderer_settings><mesh><name>m</name><external><path>none.obj</path></external></mesh><model><pos>0 0 0</pos><scale>1</scale><mesh_name>m</mesh_name></model>";
+    /// A file that cannot be had, named by something that has no effect; told by `-check`.
+    IDLE_MISSING = "W0327", "(a texture with `<path>nowhere.png</path>` of a material that nothing uses)";
+    /// A map of fractions with some below 0 or above 1.
+    BEYOND_FRACTIONS = "W0328", "(a `blend_map` with `<b>3</b>`)";
+    /// A mesh that bounds a medium and is not closed.
+    NOT_CLOSED = "W0329", "(a square whose material has an `internal_medium_name`)";
     /// A name that nothing defines.
     UNKNOWN_NAME = "E0301", "<sphere><center>0 0 0</center><radius>1</radius><material_name>whiet</material_name></sphere>";
     /// A file that cannot be had.

@@ -57,6 +57,10 @@ impl Resolver for Witness<'_> {
         seen.insert((path.to_owned(), from.to_owned()), hash);
         Ok(found)
     }
+
+    fn has(&self, path: &str, from: &str) -> bool {
+        self.inner.has(path, from)
+    }
 }
 
 /// What a scene's elements say, before it is known which of their texts are paths.

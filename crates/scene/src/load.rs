@@ -106,6 +106,7 @@ pub fn load(path: &str, options: &LoadOptions) -> Loaded {
         development: options.resolver,
         sources: &mut sources,
         sink: &mut sink,
+        asked: HashSet::new(),
     };
     let mut scene = lower::lower(&bound.root, &bound.settings, path, context)
         .filter(|_| !sink.has_errors() && !options.is_stopped());
@@ -129,6 +130,7 @@ pub fn load_development(path: &str, options: &LoadOptions) -> LoadedDevelopment 
             development: options.resolver,
             sources: &mut sources,
             sink: &mut sink,
+            asked: HashSet::new(),
         };
         lower::development(&bound.root, &bound.settings, path, context)
     });

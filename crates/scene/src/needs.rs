@@ -96,4 +96,7 @@ impl Resolver for Recorder<'_> {
         self.read.lock().unwrap_or_else(PoisonError::into_inner).push(read);
         found
     }
+    fn has(&self, path: &str, from: &str) -> bool {
+        self.inner.has(path, from)
+    }
 }

@@ -65,11 +65,17 @@ pub static TEXTURE: Block = Block::new(
      Where one number is wanted (bump, exponent, blend) it is the mean of f over red, green and blue. \
      v = 0 is the bottom of the image, which repeats in both directions. Texels stand at the corners of a grid, the \
      first of them at (0, 0), and between them values are linear: the last run on into the first ones of the next \
-     repetition. Those of environment maps stand in the middle of their cells.",
+     repetition. Those of environment maps stand in the middle of their cells.\n\n\
+     Of image files, wherever they are named: alpha is dropped, with a warning where the image is not opaque throughout. \
+     Values of EXR and Radiance files and of TIFF files in floating point are as they are, and may be beyond 1; so are \
+     whole numbers (UINT) of an EXR file, with a warning. A TIFF file is read if it is grey, or red, green and blue, of \
+     1, 2, 4 (grey alone), 8 or 16 bits or of floating-point numbers of 16 or 32, and not compressed or by LZW, Deflate or \
+     PackBits: its first page, with a warning where there are more, and with a warning where there are samples beside the \
+     colours that are no alpha. Palettes, inks (CMYK), YCbCr and L*a*b* in TIFF files are errors.",
     &[
         Field::new(
             "uv_set",
-            Kind::Text,
+            Kind::Name,
             Presence::Default("default"),
             "Name of the set of texture coordinates to look the image up with; the mesh must expose it. Where it is not \
              given, and the mesh exposes no set called `default`, it is the first one.",

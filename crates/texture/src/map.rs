@@ -57,7 +57,7 @@ impl Texture {
             Pixels::F32(_) if curve == Curve::IDENTITY => (image, Arc::default()),
             Pixels::F32(v) => {
                 let converted = v.iter().map(|&x| curve.apply(f64::from(x)) as f32).collect();
-                (Arc::new(Image { pixels: Pixels::F32(converted), ..*image }), Arc::default())
+                (Arc::new(Image { pixels: Pixels::F32(converted), notes: vec![], ..*image }), Arc::default())
             }
         };
         Self {
@@ -87,10 +87,24 @@ impl Texture {
 
     /// Which share of the texels has a scalar of no more than `limit`. Goes through all of them.
     pub fn share_not_above(&self, limit: Real) -> f64 {
+        self.share_of(|texel| texel.iter().sum::<Real>() <= 3.0 * limit)
+    }
+
+    /// Which share of the texels has a component below `low` or above `high`. Goes through all of them, unless integers
+    /// cannot be there.
+    pub fn share_beyond(&self, low: Real, high: Real) -> f64 {
+        let is_within = |v: &f32| (low..=high).contains(&(*v as Real));
+        if !self.table.is_empty() && self.table.iter().all(is_within) {
+            return 0.0;
+        }
+        self.share_of(|texel| !texel.iter().all(|v| (low..=high).contains(v)))
+    }
+
+    fn share_of(&self, is_meant: impl Fn([Real; 3]) -> bool) -> f64 {
         let rows = 0..self.height;
         let texels = rows.flat_map(|y| (0..self.width).map(move |x| (x, y)));
-        let below = texels.filter(|&(x, y)| self.texel(x, y).iter().sum::<Real>() <= 3.0 * limit).count();
-        below as f64 / (f64::from(self.width) * f64::from(self.height))
+        let meant = texels.filter(|&(x, y)| is_meant(self.texel(x, y))).count();
+        meant as f64 / (f64::from(self.width) * f64::from(self.height))
     }
 
     /// Linear RGB at texture coordinates.
@@ -202,7 +216,14 @@ mod tests {
 
     fn ramp() -> Image {
         // Two by two, grey: top row 0, 100; bottom row 200, 40.
-        Image { width: 2, height: 2, channels: 1, pixels: Pixels::U8(vec![0, 100, 200, 40]), primaries: None }
+        Image {
+            width: 2,
+            height: 2,
+            channels: 1,
+            pixels: Pixels::U8(vec![0, 100, 200, 40]),
+            primaries: None,
+            notes: vec![],
+        }
     }
 
     #[test]
@@ -251,6 +272,7 @@ mod tests {
             channels: 1,
             pixels: Pixels::F32((0..8).rev().flat_map(|y| (0..16).map(move |x| f(x, y))).collect()),
             primaries: None,
+            notes: vec![],
         };
         let ramp = texture(heights(|x, y| 0.01 * (3 * x + 2 * y) as f32), Curve::IDENTITY);
         // Away from the seam, where the ramp falls back.
@@ -282,6 +304,7 @@ mod tests {
             channels,
             pixels: Pixels::F32(values),
             primaries: None,
+            notes: vec![],
         };
         let colour = texture(of(3, colours.concat()), Curve::IDENTITY);
         let grey = texture(of(1, means), Curve::IDENTITY);
@@ -302,6 +325,18 @@ mod tests {
         assert_eq!(b.scalar(Vec2::new(0.0, 0.0)), 0.5 * a.scalar(Vec2::new(0.0, 0.0)));
         // A texel of eight bits takes a byte.
         assert_eq!(a.memory_bytes(), 4 + 4 * 256);
+    }
+
+    #[test]
+    fn shares_of_texels_are_counted() {
+        let of = |b: f64, c: f64| texture(ramp(), Curve { b, c, ..Curve::IDENTITY });
+        // 0, 100, 200 and 40 of 255: times two the third is above 1, and less 0.5 all but the third are below 0.
+        assert_eq!(of(1.0, 0.0).share_beyond(0.0, 1.0), 0.0);
+        assert_eq!(of(2.0, 0.0).share_beyond(0.0, 1.0), 0.25);
+        assert_eq!(of(1.0, -0.5).share_beyond(0.0, 1.0), 0.75);
+        assert_eq!(of(1.0, -0.5).share_not_above(0.0), 0.75);
+        let floats = Image { pixels: Pixels::F32(vec![0.0, 1.0, 1.5, -0.25]), ..ramp() };
+        assert_eq!(texture(floats, Curve::IDENTITY).share_beyond(0.0, 1.0), 0.5);
     }
 
     #[test]

@@ -6,6 +6,9 @@ use std::fmt::Write;
 const LIQUIDS: &str = include_str!("../data/liquids.csv");
 const DIELECTRICS: &str = include_str!("../data/dielectrics.csv");
 
+/// Where the coefficients of liquids are from.
+const LIQUID_SOURCE: &str =
+    "Narasimhan et al. 2006, Acquiring Scattering Properties of Participating Media by Dilution";
 /// The index of refraction of liquids, which the measurements do not give: water's at the sodium line.
 const LIQUID_IOR: &str = "1.333";
 /// A liquid may reach into its glass, which displaces it.
@@ -16,10 +19,58 @@ const SOLID_PRECEDENCE: u32 = 20;
 pub fn files() -> Vec<(String, String)> {
     let liquids = rows(LIQUIDS).map(|row| liquid(&row));
     let dielectrics = rows(DIELECTRICS).map(|row| dielectric(&row));
-    liquids
+    let media = liquids
         .chain(dielectrics)
-        .map(|(name, medium)| (format!("media/{name}.igs"), format!("<scene>\n{medium}</scene>\n")))
-        .collect()
+        .map(|(name, medium)| (format!("media/{name}.igs"), format!("<scene>\n{medium}</scene>\n")));
+    media.chain([("media/README.md".to_owned(), readme())]).collect()
+}
+
+/// What there is, as lists.
+fn readme() -> String {
+    let mut text = format!(
+        "# Measured media
+
+Liquids, glasses and other dielectrics: a `medium` each, named as its file, to be included beside a scene or from the resource
+directory:
+
+```xml
+<include><pathname>media/water.igs</pathname></include>
+<material>
+    <name>water surface</name>
+    <specular><internal_medium_name>water</internal_medium_name></specular>
+</material>
+```
+
+Written by `cargo xtask gen` from the tables in `crates/xtask/data`.
+
+## Liquids
+
+{LIQUID_SOURCE}. Absorption and scattering, of red, green and blue. Their index of refraction, which was not measured, is
+that of water ({LIQUID_IOR}); their precedence is {LIQUID_PRECEDENCE}, so that glass displaces them.
+
+| file | liquid |
+|---|---|
+"
+    );
+    for row in rows(LIQUIDS) {
+        let _ = writeln!(text, "| {}.igs | {} |", identifier(row[0]), row[0]);
+    }
+    let _ = write!(
+        text,
+        "
+## Glasses and other dielectrics
+
+Clear, with the index of refraction by Cauchy's equation n = A + B/λ². Liquids have precedence {LIQUID_PRECEDENCE}, and what is \
+         solid has {SOLID_PRECEDENCE}.
+
+| file | A | B (µm²) | n at 589 nm | what it is, and who measured it |
+|---|---|---|---|---|
+"
+    );
+    for row in rows(DIELECTRICS) {
+        let _ = writeln!(text, "| {}.igs | {} | {} | {} | {} |", row[0], row[1], row[2], row[3], row[4]);
+    }
+    text
 }
 
 /// The rows of a table after its remarks and its head.
@@ -47,8 +98,7 @@ fn liquid(row: &[&str]) -> (String, String) {
         triple(4),
         triple(7)
     );
-    let source = "Narasimhan et al. 2006, Acquiring Scattering Properties of Participating Media by Dilution";
-    let text = medium(&name, LIQUID_PRECEDENCE, &format!("{}: {source}", row[0]), &basic);
+    let text = medium(&name, LIQUID_PRECEDENCE, &format!("{}: {LIQUID_SOURCE}", row[0]), &basic);
     (name, text)
 }
 
@@ -94,7 +144,10 @@ mod tests {
         let mut names: Vec<&str> = files.iter().map(|(path, _)| path.as_str()).collect();
         names.sort_unstable();
         names.dedup();
-        assert_eq!(names.len(), 55);
+        assert_eq!(names.len(), 56);
+        let (_, list) = files.last().expect("a list");
+        let of_media = names.iter().filter_map(|path| path.strip_prefix("media/")?.strip_suffix(".igs"));
+        assert_eq!(of_media.filter(|name| list.contains(&format!("| {name}.igs |"))).count(), 55);
         assert_eq!(identifier("Mission Bay 10ft Deep (30 min)"), "mission_bay_10ft_deep_30_min");
         let (_, milk) = files.iter().find(|(path, _)| path == "media/milk_regular.igs").expect("milk");
         assert!(milk.contains("18205.267 20382.6 22369.8"), "{milk}");

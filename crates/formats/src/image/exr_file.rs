@@ -5,7 +5,7 @@ use std::io::Cursor;
 use exr::meta::MetaData;
 use exr::prelude::*;
 
-use super::{Image, Pixels, Primaries, check_memory, check_sides, decoder_error};
+use super::{ALPHA, Image, Pixels, Primaries, check_memory, check_sides, decoder_error};
 use crate::error::{FormatError, Position};
 
 /// The bytes that every EXR file starts with.
@@ -14,6 +14,9 @@ pub(super) const MAGIC: [u8; 4] = [0x76, 0x2F, 0x31, 0x01];
 /// How often the decoder (`exr` 1.74.2) holds a block of the file at once: as it is stored, as its compression left it, and
 /// as it is passed on.
 const COPIES_OF_A_BLOCK: u64 = 4;
+
+const WHOLE_NUMBERS: &str =
+    "its channels are of whole numbers, which are taken as they are: 1 is white, not the largest";
 
 /// Decodes the data window; where it lies in the display window is not told.
 pub(super) fn decode(bytes: &[u8], most_bytes: u64) -> std::result::Result<Image, FormatError> {
@@ -32,12 +35,22 @@ pub(super) fn decode(bytes: &[u8], most_bytes: u64) -> std::result::Result<Image
     }
     let has =
         |names: &[&str]| meta.headers.iter().any(|header| names.iter().all(|name| has_channel(header, name)));
+    let of_whole_numbers = |names: &[&str]| {
+        let mut channels = meta.headers.iter().flat_map(|header| &header.channels.list);
+        channels.any(|channel| {
+            channel.sample_type == SampleType::U32 && names.iter().any(|name| channel.name.eq(name))
+        })
+    };
+    let noted = |mut image: Image, names: &[&str]| {
+        image.notes.extend(of_whole_numbers(names).then_some(WHOLE_NUMBERS));
+        image
+    };
     if has(&["R", "G", "B"]) {
         let primaries = meta.headers.iter().find_map(|header| header.shared_attributes.chromaticities);
         let image = rgb(bytes).map_err(complaint)?;
-        Ok(Image { primaries: primaries.map(chromaticities), ..image })
+        Ok(noted(Image { primaries: primaries.map(chromaticities), ..image }, &["R", "G", "B"]))
     } else if has(&["Y"]) {
-        grey(bytes).map_err(complaint)
+        grey(bytes).map(|image| noted(image, &["Y"])).map_err(complaint)
     } else {
         let names: Vec<String> = meta
             .headers
@@ -65,9 +78,9 @@ fn rgb(bytes: &[u8]) -> exr::error::Result<Image> {
     let image = read()
         .no_deep_data()
         .largest_resolution_level()
-        .rgb_channels(
+        .rgba_channels(
             |size, _| Texels::<3>::new(size),
-            |texels, at, (r, g, b): (f32, f32, f32)| texels.set(at, [r, g, b]),
+            |texels, at, (r, g, b, alpha): (f32, f32, f32, f32)| texels.set(at, [r, g, b], alpha),
         )
         .first_valid_layer()
         .all_attributes()
@@ -82,7 +95,11 @@ fn grey(bytes: &[u8]) -> exr::error::Result<Image> {
         .largest_resolution_level()
         .specific_channels()
         .required("Y")
-        .collect_pixels(|size, _| Texels::<1>::new(size), |texels, at, (y,): (f32,)| texels.set(at, [y]))
+        .optional("A", 1.0)
+        .collect_pixels(
+            |size, _| Texels::<1>::new(size),
+            |texels, at, (y, alpha): (f32, f32)| texels.set(at, [y], alpha),
+        )
         .first_valid_layer()
         .all_attributes()
         .non_parallel()
@@ -94,14 +111,16 @@ fn grey(bytes: &[u8]) -> exr::error::Result<Image> {
 struct Texels<const N: usize> {
     size: Vec2<usize>,
     values: Vec<[f32; N]>,
+    is_opaque: bool,
 }
 
 impl<const N: usize> Texels<N> {
     fn new(size: Vec2<usize>) -> Self {
-        Self { size, values: vec![[0.0; N]; size.area()] }
+        Self { size, values: vec![[0.0; N]; size.area()], is_opaque: true }
     }
 
-    fn set(&mut self, at: Vec2<usize>, texel: [f32; N]) {
+    fn set(&mut self, at: Vec2<usize>, texel: [f32; N], alpha: f32) {
+        self.is_opaque &= alpha == 1.0;
         if let Some(slot) = self.values.get_mut(at.y() * self.size.width() + at.x()) {
             *slot = texel;
         }
@@ -114,6 +133,7 @@ impl<const N: usize> Texels<N> {
             channels: N as u8,
             pixels: Pixels::F32(self.values.into_flattened()),
             primaries: None,
+            notes: if self.is_opaque { vec![] } else { vec![ALPHA] },
         }
     }
 }

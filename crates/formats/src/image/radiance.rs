@@ -57,7 +57,7 @@ pub(super) fn decode(bytes: &[u8], most_bytes: u64) -> Result<Image, FormatError
     }
     let (width, height) = if header.scan.is_upright { (lines, length) } else { (length, lines) };
     let primaries = header.primaries;
-    Ok(Image { width, height, channels: 3, pixels: Pixels::F32(values), primaries })
+    Ok(Image { width, height, channels: 3, pixels: Pixels::F32(values), primaries, notes: vec![] })
 }
 
 /// The header, and what follows it.

@@ -3,7 +3,7 @@
 use super::report::Reporter;
 use crate::codes;
 use indigo_decl::{EmbeddedMesh, MeshData};
-use indigo_diag::Span;
+use indigo_diag::{Span, Spanned};
 use std::collections::{HashMap, HashSet};
 
 /// Triangles of a smaller area, in m², are left out.
@@ -20,10 +20,12 @@ pub(super) struct MeshBuilder {
     /// How many vertices have a normal; that of the others is zero until the end.
     normals_given: usize,
     not_unit: usize,
+    /// Normals that were given, but have no direction.
+    no_direction: usize,
     /// How many vertices have each uv set.
     uvs_given: [usize; 4],
     /// Names of uv sets, to be checked when all vertices are known.
-    exposed: Vec<(u32, Span, String)>,
+    exposed: Vec<(Spanned<u32>, Spanned<String>)>,
     set_start: usize,
     set_material: Option<u32>,
     /// Vertices of which something could not be read.
@@ -38,6 +40,7 @@ impl MeshBuilder {
             material_ids: HashMap::new(),
             normals_given: 0,
             not_unit: 0,
+            no_direction: 0,
             uvs_given: [0; 4],
             exposed: vec![],
             set_start: 0,
@@ -69,6 +72,7 @@ impl MeshBuilder {
     pub fn normal(&mut self, n: [f32; 3]) {
         let length = dot(n, n).sqrt();
         if !(length > 0.0 && length.is_finite()) {
+            self.no_direction += 1;
             return;
         }
         if (length - 1.0).abs() > UNIT_TOLERANCE {
@@ -138,12 +142,12 @@ impl MeshBuilder {
             report.error(codes::BAD_UV_SET, element, "<expose_uv_set> has no <index>", "expected <index>");
             return;
         };
-        let Some((name, _)) = name.filter(|(name, _)| !name.is_empty()) else {
+        let Some((name, name_span)) = name.filter(|(name, _)| !name.is_empty()) else {
             report.error(codes::BAD_UV_SET, element, "<expose_uv_set> has no <name>", "expected <name>");
             return;
         };
         match index.parse::<u32>() {
-            Ok(i) => self.exposed.push((i, index_span, name)),
+            Ok(i) => self.exposed.push((Spanned::new(i, index_span), Spanned::new(name, name_span))),
             Err(_) => {
                 let message = format!("<index> of the uv set {name} is not a whole number");
                 report.error(codes::BAD_UV_SET, index_span, message, "expected 0, 1, 2 or 3");
@@ -155,6 +159,11 @@ impl MeshBuilder {
         self.check_uv_sets(report);
         self.complete_uvs(mesh, report);
         self.complete_normals(mesh, report);
+        // Where others have one it was told what stands in.
+        if self.no_direction > 0 && self.normals_given == 0 {
+            let message = format!("normals without a length, which are left out: {}", self.no_direction);
+            report.warning(codes::NOT_UNIT, mesh, message);
+        }
         if self.not_unit > 0 {
             let message = format!("normals of another length than 1 were normalised: {}", self.not_unit);
             report.warning(codes::NOT_UNIT, mesh, message);
@@ -164,13 +173,18 @@ impl MeshBuilder {
 
     fn check_uv_sets(&mut self, report: &mut Reporter) {
         let sets = self.data.uv_sets.len();
-        for (index, span, name) in std::mem::take(&mut self.exposed) {
-            if (index as usize) < sets {
-                self.data.uv_names.push((name, index));
+        for (index, name) in std::mem::take(&mut self.exposed) {
+            let known = self.data.uv_names.iter().find(|(known, _)| *known == name.value);
+            if let Some((_, other)) = known.filter(|(_, set)| *set != index.value) {
+                let message = format!("{} is the name of uv set {other} already", name.value);
+                let expected = format!("expected another name for uv set {}", index.value);
+                report.error(codes::BAD_UV_SET, name.span, message, expected);
+            } else if (index.value as usize) < sets {
+                self.data.uv_names.push((name.value, index.value));
             } else {
-                let message = format!("there is no uv set {index}");
+                let message = format!("there is no uv set {}", index.value);
                 let expected = format!("expected a number below {sets}, the number of sets of the vertices");
-                report.error(codes::BAD_UV_SET, span, message, expected);
+                report.error(codes::BAD_UV_SET, index.span, message, expected);
             }
         }
     }

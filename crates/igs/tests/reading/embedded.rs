@@ -96,6 +96,12 @@ fn faults_have_places() {
         ("<expose_uv_set><index>0</index><name>a</name></expose_uv_set>", vec!["E0105 3:23"]),
         ("<expose_uv_set><index>x</index><name>a</name></expose_uv_set>", vec!["E0105 3:23"]),
         ("<expose_uv_set><name>a</name></expose_uv_set>", vec!["E0105 3:1"]),
+        ("<expose_uv_set><index>0</index><name> </name></expose_uv_set>", vec!["E0105 3:1"]),
+        (
+            "<vertex pos='0 0 0' uv0='1 2' uv1='3 4'/><expose_uv_set><index>0</index><name>a</name></expose_uv_set><expose_uv_set><index>1</index><name>a</name></expose_uv_set><expose_uv_set><index>0</index><name>a</name></expose_uv_set>",
+            vec!["E0105 3:140"],
+        ),
+        ("<vertex pos='0 0 0' normal='0 0 0'/><vertex pos='0 0 0' normal='0 0 0'/>", vec!["W0011 2:1"]),
         (
             "<vertex pos='0 0 0' uv7='1 2' colour='3'/><vertex pos='0 0 0' uv7='1 2'/>",
             vec!["W0105 3:21", "W0105 3:31"],

@@ -34,7 +34,7 @@ pub static BLOCK: Block = Block::new(
             "blend_map",
             Kind::Block(&TEXTURE),
             Presence::Optional,
-            "An image map that takes the place of `blend_factor`.",
+            "An image map that takes the place of `blend_factor`. Below 0 it counts as 0, and above 1 as 1, with a warning.",
         ),
         Field::new(
             "step_blend",
@@ -160,7 +160,7 @@ impl Blend {
         let is_stepped = node.bool("step_blend");
         let share = if let Some(map) = node.node("blend_map") {
             node.disregard_field("blend_factor");
-            let map = resources.texture(map);
+            let map = resources.fractions(map);
             if is_stepped { Share::Steps(map) } else { Share::Map(map) }
         } else {
             let share = node.opt_real("blend_factor").map_or(0.0, |f| f.value);

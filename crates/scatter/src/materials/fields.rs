@@ -1,6 +1,7 @@
 //! Fields that several materials share.
 
-use indigo_decl::{Field, Kind, Later, Node, Parameter, Presence, Range, StandIn};
+use indigo_decl::{Field, Kind, Later, Node, Parameter, Presence, Range, StandIn, codes};
+use indigo_diag::{Diagnostic, Sink};
 use indigo_spectrum::declare::SPECTRUM;
 use indigo_texture::declare::TEXTURE;
 
@@ -21,7 +22,7 @@ pub const ALBEDO_TEXTURE: Field = Field::new(
     "albedo_texture",
     Kind::Block(&TEXTURE),
     Presence::Optional,
-    "An image map that takes the place of the albedo.",
+    "An image map that takes the place of the albedo. Below 0 it counts as 0, and above 1 as 1, with a warning.",
 );
 
 /// A map of heights.
@@ -39,7 +40,7 @@ pub const ROUGHNESS: Field = Field::new(
     Kind::Real,
     Presence::Optional,
     "The roughness of later versions in place of `exponent`: the width α of the distribution of small facets, from 0 \
-     (smooth) to 1; an exponent n stands for α = √(2 / (n + 2)).",
+     (smooth) to 1; an exponent n stands for α = √(2 / (n + 2)). An exponent beside it has no effect, with a warning.",
 )
 .range(Range::Within(0.0, 1.0));
 
@@ -52,9 +53,18 @@ pub const ROUGHNESS_PARAMETER: Parameter = Parameter {
     stand_in: StandIn::Text("0.3"),
 };
 
-/// Whether a material says how rough it is, and not by an exponent.
-pub fn is_rough(node: &Node) -> bool {
-    ["roughness", "roughness_map"].iter().any(|name| node.block.declares(name) && node.has(name))
+/// An exponent has no effect where a material says by its roughness how rough it is; that is told.
+pub fn disregard_exponents(node: &Node, sink: &mut Sink) {
+    // In the order in which they count.
+    let given =
+        |names: [&'static str; 2]| names.into_iter().find(|name| node.block.declares(name) && node.has(name));
+    let Some(counts) = given(["roughness_map", "roughness"]) else { return };
+    let exponents = ["exponent_map", "exponent"];
+    if let Some(other) = given(exponents) {
+        let message = format!("<{other}> has no effect beside <{counts}>");
+        sink.push_or_count(Diagnostic::warning(codes::DUPLICATE_ELEMENT, node.span_of(other), message));
+    }
+    exponents.iter().filter(|name| node.block.declares(name)).for_each(|name| node.disregard_field(name));
 }
 
 /// The medium inside.

@@ -11,7 +11,7 @@
 
 use super::fields::{
     BASE_EMISSION, BASE_EMISSION_PARAMETER, BUMP, BUMP_MAP, EMISSION, EMISSION_PARAMETER, EMISSION_TEXTURE,
-    INTERNAL_MEDIUM_NAME, LATER, LAYER, ROUGHNESS, ROUGHNESS_PARAMETER, is_rough,
+    INTERNAL_MEDIUM_NAME, LATER, LAYER, ROUGHNESS, ROUGHNESS_PARAMETER, disregard_exponents,
 };
 use super::{MaterialContext, MaterialResources, SurfaceKind};
 use crate::fresnel::{dielectric, reflectance};
@@ -76,9 +76,7 @@ impl GlossyTransparent {
     /// From its element.
     pub fn build(node: &Node, resources: &mut dyn MaterialResources) -> Self {
         let medium = resources.medium(node, INTERNAL_MEDIUM_NAME.name);
-        if is_rough(node) {
-            node.disregard_field("exponent");
-        }
+        disregard_exponents(node, resources.sink());
         let facets = match node.opt_real(ROUGHNESS.name) {
             Some(width) => Microfacets::of_width(Real::from_f64(width.value)),
             // The stand-in is for scenes that lack both, which has been reported.

@@ -73,6 +73,10 @@ pub trait MaterialResources {
     fn exponents(&mut self, node: &Node) -> TextureId {
         self.texture(node)
     }
+    /// The image map of fractions from 0 to 1 that a texture element asks for; whatever is wrong with it has been reported.
+    fn fractions(&mut self, node: &Node) -> TextureId {
+        self.texture(node)
+    }
     /// The complex index of refraction, n and k by wavelength, of the file that a field names; whatever is wrong
     /// with it has been reported.
     fn complex_index(&mut self, node: &Node, field: &str) -> [Spectrum; 2];

@@ -19,10 +19,12 @@
 //!
 //! `docs/theory/gloss.md` has a table of E.
 
-use super::fields::{
-    ALBEDO_TEXTURE, BASE_EMISSION, BASE_EMISSION_PARAMETER, BUMP, BUMP_MAP, COLOUR_DEPRECATED, EMISSION,
-    EMISSION_PARAMETER, EMISSION_TEXTURE, LATER, LAYER, ROUGHNESS, ROUGHNESS_PARAMETER, is_rough,
-};
+mod declare;
+
+pub use declare::BLOCK;
+pub(super) use declare::FIELDS;
+
+use super::fields::disregard_exponents;
 use super::{MaterialContext, MaterialResources, SurfaceKind};
 use crate::directional_albedo::{AlbedoRow, LaneRows};
 use crate::fresnel::{conductor, dielectric, diffuse_average, schlick};
@@ -31,156 +33,12 @@ use crate::media::Medium;
 use crate::microfacet::Microfacets;
 use crate::reflectance::Reflectance;
 use crate::scatter::{Crossing, LocalSample, Scatter};
-use indigo_decl::{Block, Field, Group, Kind as FieldKind, Node, Parameter, Presence, Range, StandIn, codes};
+use indigo_decl::{Node, codes};
 use indigo_diag::{Diagnostic, Sink};
 use indigo_math::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
 use indigo_math::{Float, Real, Vec2, Vec3};
-use indigo_spectrum::declare::SPECTRUM;
 use indigo_spectrum::{LanePdf, SampledSpectrum, Spectrum};
 use indigo_texture::TextureId;
-use indigo_texture::declare::TEXTURE;
-
-/// The fields, which `fast_sss` shares.
-pub(super) const FIELDS: &[Field] = &[
-    Field::new(
-        "diffuse_albedo_spectrum",
-        FieldKind::OneOf(&SPECTRUM),
-        Presence::Optional,
-        "The reflectance of the diffuse ground, at least 0; black where it is missing. Values above 1 are \
-         silently clamped. Has no effect on a metal.",
-    ),
-    Field::new(
-        "diffuse",
-        FieldKind::Vec3,
-        Presence::Optional,
-        "The reflectance of the ground as red, green and blue as picked on a screen: each is raised to \
-         the power 2.2 and then clamped to [0, 0.9]. Has no effect beside `diffuse_albedo_spectrum`.",
-    )
-    .deprecated(COLOUR_DEPRECATED),
-    Field::new(
-        "ior",
-        FieldKind::Real,
-        Presence::Optional,
-        "Index of refraction of the coat. Needed unless the surface is a metal.",
-    )
-    .range(Range::AtLeast(1.0)),
-    Field::new(
-        "exponent",
-        FieldKind::Real,
-        Presence::Optional,
-        "Exponent of the normals of small facets, from about 1 (broad highlights) to 10000 and more (nearly a mirror): \
-         their distribution is that of Trowbridge and Reitz with the peak of a Phong lobe of this exponent, and longer \
-         tails. Needed unless there is an `exponent_map`.",
-    )
-    .range(Range::Above(0.0)),
-    Field::new(
-        "nk_data",
-        FieldKind::Path,
-        Presence::Optional,
-        "A file of measured complex indices of refraction, such as `nkdata/au.nk`, beside the scene or in \
-         the resource directory. Empty means none.",
-    ),
-    Field::new(
-        "specular_reflectivity_spectrum",
-        FieldKind::OneOf(&SPECTRUM),
-        Presence::Optional,
-        "Reflectivity of a metal at normal incidence; towards grazing angles it rises to 1 by Schlick's \
-         law. At least 0; values above 1 are silently clamped.",
-    ),
-    ALBEDO_TEXTURE,
-    BUMP_MAP,
-    Field::new(
-        "exponent_map",
-        FieldKind::Block(&TEXTURE),
-        Presence::Optional,
-        "An image map that takes the place of the exponent.",
-    ),
-    ROUGHNESS,
-    Field::new(
-        "roughness_map",
-        FieldKind::Block(&TEXTURE),
-        Presence::Optional,
-        "An image map that takes the place of the roughness.",
-    ),
-    Field::new(
-        "specular_reflectivity_texture",
-        FieldKind::Block(&TEXTURE),
-        Presence::Optional,
-        "An image map that takes the place of `specular_reflectivity_spectrum`.",
-    ),
-    Field::new(
-        "fresnel_scale",
-        FieldKind::Real,
-        Presence::Default("1"),
-        "Factor on the reflectance of the coat or of the metal. Values above 1 are silently clamped.",
-    )
-    .range(Range::AtLeast(0.0)),
-    BASE_EMISSION,
-    EMISSION,
-    EMISSION_TEXTURE,
-    LAYER,
-];
-
-/// The declaration of `phong`.
-pub static BLOCK: Block = Block::new(
-    "phong",
-    "A glossy surface of small facets: by default a dielectric coat of index `ior` over a diffuse \
-     ground. With `nk_data` it is a metal of measured complex index; with \
-     `specular_reflectivity_spectrum` a metal of the given reflectivity. Where several are given, \
-     `nk_data` counts before `specular_reflectivity_spectrum`, and that before `ior` and the diffuse ground. \
-     Under water, or in another medium, coats and measured metals reflect by the quotient of both indices.",
-    FIELDS,
-)
-.with_needs(&[
-    Group::any(&["ior", "nk_data", "specular_reflectivity_spectrum", "specular_reflectivity_texture"]),
-    Group::any(&["exponent", "exponent_map", "roughness", "roughness_map"]),
-])
-.with_parameters(PARAMETERS)
-.with_later(LATER)
-.with_example(
-    "<phong>
-    <exponent>300</exponent>
-    <specular_reflectivity_spectrum>
-        <rgb><rgb>0.8 0.3 0.6</rgb><gamma>1</gamma></rgb>
-    </specular_reflectivity_spectrum>
-</phong>",
-);
-
-/// The parameters as later versions write them.
-pub(super) const PARAMETERS: &[Parameter] = &[
-    BASE_EMISSION_PARAMETER,
-    EMISSION_PARAMETER,
-    Parameter {
-        name: "diffuse_albedo",
-        since: "1.1",
-        constant: "diffuse_albedo_spectrum",
-        texture: "albedo_texture",
-        stand_in: StandIn::Uniform("0.5"),
-    },
-    Parameter {
-        name: "specular_reflectivity",
-        since: "1.1",
-        constant: "specular_reflectivity_spectrum",
-        texture: "specular_reflectivity_texture",
-        stand_in: StandIn::Uniform("0.5"),
-    },
-    Parameter {
-        name: "exponent",
-        since: "1.1",
-        constant: "exponent",
-        texture: "exponent_map",
-        stand_in: StandIn::Text("1000"),
-    },
-    ROUGHNESS_PARAMETER,
-    Parameter {
-        name: "fresnel_scale",
-        since: "3.0",
-        constant: "fresnel_scale",
-        texture: "",
-        stand_in: StandIn::Text("1"),
-    },
-    BUMP,
-];
 
 /// A glossy surface.
 #[derive(Clone, Debug)]
@@ -317,11 +175,9 @@ impl SurfaceKind for Phong {
 impl Gloss {
     fn build(node: &Node, resources: &mut dyn MaterialResources) -> Self {
         // What a later version brought counts before what it had from an earlier one.
-        if is_rough(node) {
-            node.disregard_fields(&["exponent", "exponent_map"]);
-        }
+        disregard_exponents(node, resources.sink());
         if let Some(map) = node.node("roughness_map") {
-            return Self::Widths(resources.texture(map));
+            return Self::Widths(resources.fractions(map));
         }
         if let Some(width) = node.opt_real("roughness") {
             return Self::Uniform(Microfacets::of_width(Real::from_f64(width.value)));

@@ -155,9 +155,16 @@ const UID: Field = Field::new(
 pub static MEDIUM: Block = Block::new(
     "medium",
     "Defines a medium: a name, a precedence and one kind. Where it stands in the scene matters only beside media of the same precedence. \
-     The children of `basic` may also stand directly in `medium`.",
+     The children of `basic` may also stand directly in `medium`. Its surface has to be closed: a mesh that is not is told of. \
+     Measured media come with the program, to be included: those that `media/README.md` lists.",
     &[
-        Field::new("name", Kind::Name, Presence::Required, "Name by which materials refer to it."),
+        Field::new(
+            "name",
+            Kind::Name,
+            Presence::Required,
+            "Name by which materials refer to it. Without a definition there is one that is called `air`: that which fills the \
+             scene by itself. A medium of that name takes its place for materials that name it, and nowhere else.",
+        ),
         UID,
         Field::new(
             "precedence",

@@ -5,7 +5,7 @@ use crate::codes;
 use indigo_camera::{Aperture, Blades, BladesError, GreyImage};
 use indigo_decl::Node;
 use indigo_diag::{Diagnostic, Span};
-use indigo_formats::image::{self, Image, Pixels};
+use indigo_formats::image::{Image, Pixels};
 
 /// First bytes of every PNG.
 const PNG_MAGIC: &[u8] = b"\x89PNG\r\n\x1a\n";
@@ -86,7 +86,7 @@ pub(super) fn obstacles(path: &str, span: Span, context: &mut Context) -> Option
 /// A picture file and its bytes; `None` after reporting why not.
 fn read_image(path: &str, span: Span, context: &mut Context) -> Option<(Image, std::sync::Arc<[u8]>)> {
     let found = context.read(path, span)?;
-    match image::decode(&found.path, &found.bytes) {
+    match context.picture(&found.path, &found.bytes, span) {
         Ok(image) => Some((image, found.bytes)),
         Err(error) => {
             context.sink.push(

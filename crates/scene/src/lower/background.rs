@@ -6,7 +6,6 @@ use super::materials::MaterialTable;
 use crate::codes;
 use indigo_decl::Node;
 use indigo_diag::Diagnostic;
-use indigo_formats::image;
 use indigo_light::DistantLight;
 use indigo_light::kinds::Distant;
 use indigo_light::kinds::background::Background;
@@ -107,7 +106,7 @@ fn picture(texture: &Node, gain: f64, context: &mut Context) -> Option<DistantLi
     let [exponent, a, b, c] = ["exponent", "a", "b", "c"].map(|field| texture.real(field));
     let turn = turn_of(texture, context);
     let file = context.read(&path.value, path.span)?;
-    let image = image::decode(&file.path, &file.bytes);
+    let image = context.picture(&file.path, &file.bytes, path.span);
     let surroundings = Surroundings {
         layout: if turn == 0.0 { Layout::LatLong } else { Layout::Turned(turn as indigo_math::Real) },
         curve: Some(Curve { exponent, a, b, c }),

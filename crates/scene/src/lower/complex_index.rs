@@ -13,6 +13,11 @@ pub(super) fn read(path: &str, span: Span, context: &mut Context) -> [Spectrum; 
     match nk::read(&file.bytes) {
         Ok(index) => {
             report_range(&index, &file.path, span, context.sink);
+            if let Some(place) = index.left_out {
+                let message =
+                    format!("{}:{place}: text behind the last pair of n and k, which is left out", file.path);
+                context.sink.push_or_count(Diagnostic::warning(codes::FILE_NOTE, span, message));
+            }
             tabulated(&index)
         }
         Err(error) => {

@@ -5,7 +5,7 @@ use super::{Context, background};
 use crate::codes;
 use indigo_decl::Node;
 use indigo_diag::{Diagnostic, Span};
-use indigo_formats::image::{self, Image, Pixels};
+use indigo_formats::image::{Image, Pixels};
 use indigo_formats::{FormatError, Position, float_map};
 use indigo_light::DistantLight;
 use indigo_light::kinds::background::Background;
@@ -104,7 +104,7 @@ fn env_map(node: &Node, context: &mut Context) -> Option<EnvMap> {
         Some(width) => {
             (Layout::Angular, float_map::decode(&file.bytes, u32::try_from(width).unwrap_or(u32::MAX)))
         }
-        None => (Layout::LatLong, image::decode(&file.path, &file.bytes)),
+        None => (Layout::LatLong, context.picture(&file.path, &file.bytes, path.span)),
     };
     Surroundings { layout, curve: None, gain }.env_map(image, &file.path, path.span, context)
 }
@@ -168,7 +168,7 @@ fn curved(image: &Image, curve: Curve) -> Image {
         Pixels::U16(v) => v.iter().map(|&x| to_linear(f64::from(x) / 65535.0)).collect(),
         Pixels::F32(v) => v.iter().map(|&x| to_linear(f64::from(x))).collect(),
     };
-    Image { pixels: Pixels::F32(values), ..*image }
+    Image { pixels: Pixels::F32(values), notes: vec![], ..*image }
 }
 
 /// The texels of a picture in linear light, whose colours are those of Rec. 709: integers are not, and have not the range.

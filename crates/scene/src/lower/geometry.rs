@@ -1,10 +1,10 @@
 //! Placed objects: models, spheres and planes, with the materials of their slots.
 
-use super::Context;
 use super::emission::warn_of_darkness;
 use super::materials::{MaterialTable, UvSets};
 use super::meshes::{Mesh, MeshTable, Part};
 use super::placement;
+use super::{Context, closed};
 use crate::codes;
 use crate::settings::Settings;
 use indigo_decl::Node;
@@ -28,13 +28,13 @@ fn box_corners(transform: &Transform, reach: f64) -> impl Iterator<Item = Vec3d>
 }
 
 /// An instance of a mesh.
-struct Placed {
-    mesh: u32,
+pub(super) struct Placed {
+    pub(super) mesh: u32,
     transform: Transform,
     /// Name of the mesh.
-    name: String,
+    pub(super) name: String,
     /// Its materials, and what they are called.
-    slots: Vec<u32>,
+    pub(super) slots: Vec<u32>,
     materials: Vec<String>,
     uv_names: Vec<(String, u32)>,
 }
@@ -265,6 +265,7 @@ impl<'a> Geometry<'a> {
         context: &mut Context,
     ) -> Option<()> {
         let placed = self.place(node, false, meshes, materials, context)?;
+        closed::warn_if_open(&placed, node.span_of("mesh_name"), meshes, materials, context.sink);
         let count = placed.slots.len() as u32;
         let emits =
             |slot: &u32| materials.emission(&placed.materials[*slot as usize], context.sink).is_some();

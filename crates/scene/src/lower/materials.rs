@@ -1,19 +1,22 @@
 //! Materials by name, built when they are first used with a mesh's texture coordinates.
 
-use super::Context;
-use super::complex_index;
+mod resources;
+mod rounds;
+
 use super::emission::{self, Emission, Layers};
 use super::media::MediumTable;
 use super::names::Names;
 use super::textures::TextureTable;
+use super::{Context, complex_index};
 use crate::codes;
 use crate::settings::Settings;
-use indigo_decl::{Kind, Node};
+use indigo_decl::Node;
 use indigo_diag::{Diagnostic, Sink, Span, Spanned};
 use indigo_scatter::materials::blend;
 use indigo_scatter::{Material, MaterialId, MaterialResources, Medium, MediumId};
 use indigo_spectrum::Spectrum;
-use indigo_texture::{Texture, TextureId};
+use indigo_texture::Texture;
+use resources::Resources;
 use std::collections::{HashMap, HashSet};
 
 /// The uv sets that a surface offers.
@@ -44,6 +47,8 @@ pub(super) struct MaterialTable<'a> {
     asked_for: HashSet<String>,
     /// Blends whose constituents are being built, from the outermost in.
     open: Vec<String>,
+    /// Materials of which all that is below was looked at, since it goes too deep.
+    walked: HashSet<String>,
     black: Option<MaterialId>,
     stand_in: Option<MaterialId>,
     layers: Layers,
@@ -65,6 +70,7 @@ impl<'a> MaterialTable<'a> {
             plain: HashMap::new(),
             asked_for: HashSet::new(),
             open: vec![],
+            walked: HashSet::new(),
             black: None,
             stand_in: None,
         }
@@ -87,7 +93,7 @@ impl<'a> MaterialTable<'a> {
         }
         self.asked_for.insert(name.to_owned());
         let node = self.names.find(name, span, context.sink);
-        let may_open = self.may_open(name, span, context.sink);
+        let may_open = self.may_open(name, node, span, context.sink);
         // Without a kind it is incomplete, or of one that grey stands in for; either was reported.
         let Some(kind) = node.and_then(Node::alternative).filter(|_| may_open) else {
             // Reported as what it is, not as unread.
@@ -156,23 +162,6 @@ impl<'a> MaterialTable<'a> {
         self.names.meant(a) == self.names.meant(b)
     }
 
-    /// Whether a material may be begun: not within itself, nor too deep in others.
-    fn may_open(&self, name: &str, span: Span, sink: &mut Sink) -> bool {
-        if let Some(first) = self.open.iter().position(|open| open == name) {
-            sink.push(made_of_itself(name, span, self.open[first..].iter()));
-            return false;
-        }
-        if self.open.len() >= blend::MAX_DEPTH as usize {
-            sink.push(Diagnostic::error(
-                codes::BLEND_CYCLE,
-                span,
-                format!("blends are nested more than {} deep", blend::MAX_DEPTH),
-            ));
-            return false;
-        }
-        true
-    }
-
     fn add(&mut self, material: Material, name: &str) -> MaterialId {
         self.materials.push(material);
         self.called.push(name.to_owned());
@@ -187,6 +176,11 @@ impl<'a> MaterialTable<'a> {
     /// Reports a name that no medium has.
     pub(super) fn check_medium(&mut self, name: &str, span: Span, sink: &mut Sink) {
         self.media.check_name(name, span, sink);
+    }
+
+    /// Whether the surface of a material is that of a medium inside, other than what is outside anyway.
+    pub(super) fn bounds_medium(&self, id: MaterialId) -> bool {
+        self.materials[id as usize].internal_medium().is_some_and(|medium| medium != MediumId::AIR)
     }
 
     /// The image map of a lamp whose mesh has certain uv sets; what is wrong is reported.
@@ -222,49 +216,6 @@ impl<'a> MaterialTable<'a> {
         id
     }
 
-    /// Reports materials that nothing uses and that are made of themselves. Those in use were found when built.
-    pub(super) fn check_unused(&self, sink: &mut Sink) {
-        let mut done: HashSet<String> = self.asked_for.clone();
-        let mut nodes: Vec<&Node> = self.names.nodes().collect();
-        nodes.sort_by_key(|n| (n.span.source, n.span.start));
-        for node in nodes {
-            self.check_round(&node.text("name").value, &mut done, sink);
-        }
-    }
-
-    /// Walks down what a material is made of, each material once, and reports the names that lead back up.
-    fn check_round(&self, first: &str, done: &mut HashSet<String>, sink: &mut Sink) {
-        // The materials above, and what is left to be looked at of each. A list of our own: a chain of blends can
-        // be longer than the thread's stack.
-        let mut open: Vec<(String, Vec<Spanned<String>>)> = vec![];
-        let mut above: HashSet<String> = HashSet::new();
-        let mut next = Some(first.to_owned());
-        loop {
-            if let Some(name) = next.take()
-                && done.insert(name.clone())
-            {
-                let mut parts = self.names.get(&name).map(constituents).unwrap_or_default();
-                for part in &mut parts {
-                    part.value = self.names.meant(&part.value).to_owned();
-                }
-                above.insert(name.clone());
-                open.push((name, parts));
-            }
-            let Some((name, parts)) = open.last_mut() else { return };
-            match parts.pop() {
-                None => {
-                    above.remove(name.as_str());
-                    open.pop();
-                }
-                Some(part) if above.contains(&part.value) => {
-                    let round = open.iter().map(|(name, _)| name).skip_while(|name| **name != part.value);
-                    sink.push(made_of_itself(&part.value, part.span, round));
-                }
-                Some(part) => next = Some(part.value),
-            }
-        }
-    }
-
     /// Materials that nothing is made of, and media that none of them names, have no effect, whatever
     /// they hold.
     pub(super) fn disregard_unused(&self) {
@@ -285,70 +236,6 @@ impl<'a> MaterialTable<'a> {
             material.immerse(&media);
         }
         (materials, self.textures.into_arena(), media)
-    }
-}
-
-/// What building a material may ask for.
-struct Resources<'t, 'a, 'c, 'd, 'u> {
-    table: &'t mut MaterialTable<'a>,
-    context: &'c mut Context<'d>,
-    uv: UvSets<'u>,
-    /// Who uses the material, for errors about missing uv sets.
-    user: Span,
-    uses_textures: bool,
-}
-
-impl MaterialResources for Resources<'_, '_, '_, '_, '_> {
-    fn texture(&mut self, node: &Node) -> TextureId {
-        self.uses_textures = true;
-        let set = self.uv_set(node);
-        self.table.textures.get(node, set, self.context)
-    }
-
-    fn exponents(&mut self, node: &Node) -> TextureId {
-        let id = self.texture(node);
-        let below = self.table.textures.texture(id).share_not_above(0.0);
-        let found = format!("{}: exponents have to be above 0", node.text("path").value);
-        if below == 1.0 {
-            let what = "expected texels above 0 by the map's a, b and c, found none";
-            self.context.sink.push_or_count(
-                Diagnostic::error(indigo_decl::codes::OUT_OF_RANGE, node.span, found).expected(what),
-            );
-        } else if below > 0.0 {
-            let share = (100.0 * below).max(0.1);
-            let message =
-                format!("{found}: {share:.1} % of the texels are not, and count as 0, the widest highlight");
-            self.context.sink.push_or_count(Diagnostic::warning(codes::NO_EXPONENT, node.span, message));
-        }
-        id
-    }
-
-    fn complex_index(&mut self, node: &Node, field: &str) -> [Spectrum; 2] {
-        let path = node.text(field);
-        complex_index::read(&path.value, path.span, self.context)
-    }
-
-    fn material(&mut self, node: &Node, field: &str) -> MaterialId {
-        let name = node.text(field);
-        if self.table.emission(&name.value, self.context.sink).is_some() {
-            emission::warn_of_darkness("a blend", name.span, self.context);
-        }
-        let id = self.table.get(&name.value, name.span, self.uv, self.context);
-        self.uses_textures |= !self.table.plain.contains_key(self.table.names.meant(&name.value));
-        id
-    }
-
-    fn built(&self, id: MaterialId) -> &Material {
-        &self.table.materials[id as usize]
-    }
-
-    fn medium(&mut self, node: &Node, field: &str) -> MediumId {
-        let name = node.text(field);
-        self.table.media.get(&name.value, name.span, self.context.sink)
-    }
-
-    fn sink(&mut self) -> &mut Sink {
-        self.context.sink
     }
 }
 
@@ -385,52 +272,5 @@ fn report_stand_in_of_kind(kind: &Node, sink: &mut Sink) {
     if kind.block.name == "fast_sss" {
         let message = "<fast_sss> is of a later format version (4.0) and not rendered: <phong> stands in";
         sink.push_or_count(Diagnostic::warning(codes::STANDS_IN, kind.span, message));
-    }
-}
-
-/// The materials that a material is made of.
-fn constituents(node: &Node) -> Vec<Spanned<String>> {
-    let Some(kind) = node.alternative() else { return vec![] };
-    let parts = kind.block.fields.iter().filter(|f| matches!(f.kind, Kind::Reference("material")));
-    parts.filter_map(|f| kind.opt_text(f.name)).collect()
-}
-
-/// The error of a material that leads back to itself by way of `round`, which begins with it.
-fn made_of_itself<'n>(name: &str, span: Span, round: impl Iterator<Item = &'n String>) -> Diagnostic {
-    let mut round: Vec<&str> = round.map(String::as_str).collect();
-    round.push(name);
-    let message = format!("material {name} is made of itself: {}", round.join(", then "));
-    Diagnostic::error(codes::BLEND_CYCLE, span, message)
-        .expected("expected a material that is made of others")
-}
-
-impl Resources<'_, '_, '_, '_, '_> {
-    fn uv_set(&mut self, node: &Node) -> u32 {
-        let (name, index) = (node.text("uv_set"), node.opt_int("uv_set_index"));
-        let UvSets::Named(sets) = self.uv else { return 0 };
-        // A number counts before a name; without either it is the set that is called `default`, or else the first.
-        let found = match index {
-            Some(index) => sets.iter().find(|(_, set)| i64::from(*set) == index.value),
-            None => sets.iter().find(|(n, _)| *n == name.value),
-        };
-        let first = sets.iter().find(|(_, set)| *set == 0);
-        let is_free = index.is_none() && !node.has("uv_set");
-        if let Some((_, set)) = found.or_else(|| first.filter(|_| is_free)) {
-            return *set;
-        }
-        let name = index.map_or(name, |index| Spanned::new(format!("number {}", index.value), index.span));
-        let names: Vec<&str> = sets.iter().map(|(n, _)| n.as_str()).collect();
-        let offers =
-            if names.is_empty() { "no uv set".to_owned() } else { format!("only {}", names.join(", ")) };
-        self.context.sink.push(
-            Diagnostic::error(
-                codes::NO_UV_SET,
-                name.span,
-                format!("a mesh of this material has no uv set {}", name.value),
-            )
-            .expected(format!("the mesh exposes {offers}"))
-            .note(format!("the mesh is used at {}", self.context.place(self.user))),
-        );
-        0
     }
 }

@@ -7,6 +7,9 @@ use indigo_diag::{Diagnostic, Sink, Span};
 use indigo_scatter::{Medium, MediumId};
 use std::collections::HashMap;
 
+/// The name of the medium that fills every scene.
+const AIR: &str = "air";
+
 /// All media of a scene, in the order of their precedence.
 pub(super) struct MediumTable<'a> {
     names: Names<'a>,
@@ -50,6 +53,10 @@ impl<'a> MediumTable<'a> {
         let i = id.index();
         if !self.asked_for[i] {
             self.asked_for[i] = true;
+            if name == AIR {
+                let message = "a medium named air: materials that name it get this one, but the air that fills every scene stays as it is";
+                sink.push(Diagnostic::warning(codes::DUPLICATE_NAME, node.span_of("name"), message));
+            }
             // Without a kind it is incomplete, which was reported.
             if let Some(medium) = node.alternative().and_then(|kind| Medium::build(kind, sink)) {
                 self.media[i] = medium;
@@ -67,7 +74,7 @@ impl<'a> MediumTable<'a> {
 
     /// Whether a name is that of the medium that every scene has, unless the scene defines its own.
     fn is_air(&self, name: &str) -> bool {
-        name == "air" && !self.ids.contains_key(name)
+        name == AIR && !self.ids.contains_key(name)
     }
 
     /// Media that no material asked for have no effect, whatever they hold.

@@ -1,6 +1,7 @@
 //! Meshes by name, read when they are first used.
 
 use super::Context;
+use super::closed::open_edges;
 use super::materials::UvSets;
 use super::names::Names;
 use crate::codes;
@@ -20,6 +21,8 @@ pub(super) struct Mesh {
     pub(super) slot_numbers: Vec<u32>,
     /// Names of its uv sets.
     pub(super) uv_names: Vec<(String, u32)>,
+    /// Whether triangles were left out of it, without which nobody can tell whether it is closed.
+    pub(super) has_gaps: bool,
     /// The largest coordinate of its vertices, of either sign.
     pub(super) reach: f64,
     /// Whether it stands in for one whose file is missing; then it has one slot, without a name, and one uv set that
@@ -41,6 +44,8 @@ pub(super) struct MeshTable<'a> {
     triangles: Vec<TriangleMesh>,
     /// Parts of meshes by what they are of: `None` where that is no triangle.
     parts: HashMap<(u32, Part), Option<u32>>,
+    /// Open edges of meshes that were asked for.
+    open_edges: HashMap<u32, usize>,
 }
 
 /// Which triangles of a mesh are meant.
@@ -68,6 +73,7 @@ impl<'a> MeshTable<'a> {
             read: HashMap::new(),
             triangles: vec![],
             parts: HashMap::new(),
+            open_edges: HashMap::new(),
         }
     }
 
@@ -100,6 +106,12 @@ impl<'a> MeshTable<'a> {
     /// The triangles of a mesh.
     pub(super) fn triangles(&self, id: u32) -> &TriangleMesh {
         &self.triangles[id as usize]
+    }
+
+    /// How many edges of a mesh are open; looked at once.
+    pub(super) fn open_edges(&mut self, id: u32) -> usize {
+        let triangles = &self.triangles[id as usize];
+        *self.open_edges.entry(id).or_insert_with(|| open_edges(triangles))
     }
 
     /// Adds a mesh that the scene does not name.
@@ -146,10 +158,11 @@ impl<'a> MeshTable<'a> {
             .map(|(i, name)| (name.clone(), material_spans.get(i).copied().unwrap_or(place)));
         let (slots, uv_names) = (slots.collect(), names_of_all_sets(&data));
         let slot_numbers = data.material_numbers.clone();
+        let has_gaps = data.degenerate_dropped > 0;
         let triangles = to_triangles(data, scale, smooth, place, context.sink)?;
         let reach = triangles.positions().iter().flatten().fold(0.0_f32, |most, x| most.max(x.abs()));
         let id = self.add(triangles);
-        Some(Mesh { id, slots, slot_numbers, uv_names, reach: reach.into(), is_stand_in: false })
+        Some(Mesh { id, slots, slot_numbers, uv_names, reach: reach.into(), has_gaps, is_stand_in: false })
     }
 
     /// A cube round the origin, a metre wide whatever the scale of the mesh: files have all units.
@@ -171,6 +184,7 @@ impl<'a> MeshTable<'a> {
             slot_numbers: vec![],
             uv_names: vec![],
             reach: 0.5,
+            has_gaps: false,
             is_stand_in: true,
         })
     }

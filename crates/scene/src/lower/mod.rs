@@ -6,6 +6,7 @@
 mod aperture;
 mod background;
 mod camera;
+mod closed;
 mod complex_index;
 mod dense_probe;
 mod emission;
@@ -31,14 +32,17 @@ use crate::scene::{
 };
 use crate::settings::Settings;
 use geometry::Geometry;
-use indigo_decl::{Node, ResolveError, Resolved, Resolver, report_unread};
-use indigo_diag::{Diagnostic, Severity, Sink, SourceMap, Span};
+use indigo_decl::{Node, ResolveError, Resolved, Resolver, hint_of_shipped, report_unread};
+use indigo_diag::{Diagnostic, Severity, Sink, SourceId, SourceMap, Span};
+use indigo_formats::FormatError;
+use indigo_formats::image::{self, Image};
 use indigo_geom::{Accel, BuildError, BuildOptions, Object, SurfacePoint};
 use indigo_math::Vec3d;
 use indigo_scatter::{Material, MediumStack};
 use indigo_spectrum::WavelengthSampler;
 use materials::MaterialTable;
 use meshes::MeshTable;
+use std::collections::HashSet;
 
 /// What all parts of lowering share.
 pub(crate) struct Context<'a> {
@@ -49,6 +53,8 @@ pub(crate) struct Context<'a> {
     pub development: &'a dyn Resolver,
     pub sources: &'a mut SourceMap,
     pub sink: &'a mut Sink,
+    /// Paths of files that were asked for, and the files that name them.
+    pub asked: HashSet<(String, SourceId)>,
 }
 
 impl Context<'_> {
@@ -64,6 +70,7 @@ impl Context<'_> {
         if path.is_empty() || self.options.is_stopped() {
             return None;
         }
+        self.asked.insert((path.to_owned(), span.source));
         let found = self.options.resolver.read(path, self.sources.name(span.source));
         self.or_report(found, path, span)
     }
@@ -73,6 +80,7 @@ impl Context<'_> {
         if !self.placeholders || path.is_empty() {
             return self.read(path, span);
         }
+        self.asked.insert((path.to_owned(), span.source));
         let found = self.options.resolver.read(path, self.sources.name(span.source));
         let missing = |error| {
             let message = format!("cannot read {path}: {error}; {stand_in} stands in");
@@ -86,8 +94,36 @@ impl Context<'_> {
         if path.is_empty() {
             return None;
         }
+        self.asked.insert((path.to_owned(), span.source));
         let found = self.development.read(path, self.sources.name(span.source));
         self.or_report(found, path, span)
+    }
+
+    /// The picture that a file holds; what of the file is not in it is told.
+    fn picture(&mut self, file: &str, bytes: &[u8], span: Span) -> Result<Image, FormatError> {
+        let image = image::decode(file, bytes)?;
+        for note in &image.notes {
+            let message = format!("{file}: {note}");
+            self.sink.push_or_count(Diagnostic::warning(codes::FILE_NOTE, span, message));
+        }
+        Ok(image)
+    }
+
+    /// Reports files that cannot be had and that nothing has asked for: what names them has no effect.
+    fn report_missing_unused(&mut self, root: &Node) {
+        let mut paths = vec![];
+        root.visit_paths(&mut |path, span| paths.push((path.to_owned(), span)));
+        for (path, span) in paths {
+            let from = self.sources.name(span.source);
+            if !self.asked.insert((path.clone(), span.source)) {
+                continue;
+            }
+            if let Err(error) = self.options.resolver.read(&path, from) {
+                let message = format!("cannot read {path}, which has no effect here: {error}");
+                let missing = Diagnostic::warning(codes::IDLE_MISSING, span, message);
+                self.sink.push(missing.expected(error.expected()));
+            }
+        }
     }
 
     fn or_report(
@@ -99,11 +135,12 @@ impl Context<'_> {
         match found {
             Ok(found) => Some(found),
             Err(error) => {
-                self.sink.push(Diagnostic::error(
-                    codes::MISSING_FILE,
-                    span,
-                    format!("cannot read {path}: {error}"),
-                ));
+                let from = self.sources.name(span.source);
+                let hint = hint_of_shipped(path, from, &error, self.options.resolver);
+                let message = format!("cannot read {path}: {error}");
+                let missing =
+                    Diagnostic::error(codes::MISSING_FILE, span, message).expected(error.expected());
+                self.sink.push(Diagnostic { hint, ..missing });
                 None
             }
         }
@@ -113,6 +150,10 @@ impl Context<'_> {
 /// Lowers a scene. `None` where an error, now in the sink, leaves nothing to trace.
 pub(crate) fn lower(root: &Node, settings: &Settings, path: &str, mut context: Context) -> Option<Scene> {
     let scene = build(root, settings, path, &mut context);
+    // It takes reading them.
+    if context.options.check_only {
+        context.report_missing_unused(root);
+    }
     root.mark_used();
     report_unread(root, Severity::Error, context.sink);
     settings.report_unread(context.sink);

@@ -4,7 +4,7 @@ use super::Context;
 use crate::codes;
 use indigo_decl::Node;
 use indigo_diag::{Diagnostic, SourceId, Span};
-use indigo_formats::image::{self, Image, Pixels};
+use indigo_formats::image::{Image, Pixels};
 use indigo_math::Mat3;
 use indigo_spectrum::adaptation::rec709_of;
 use indigo_texture::{Curve, Texture, TextureId};
@@ -94,7 +94,7 @@ fn warn_of_generated_coordinates(node: &Node, context: &mut Context) {
 }
 
 fn decode(file: &str, bytes: &[u8], span: Span, context: &mut Context) -> Image {
-    let mut image = image::decode(file, bytes);
+    let mut image = context.picture(file, bytes, span);
     if let Ok(Image { primaries: Some(primaries), .. }) = &image
         && rec709_of(*primaries) != Some(Mat3::IDENTITY)
     {
@@ -124,7 +124,7 @@ fn drop_no_numbers(values: &mut [f32]) -> usize {
 }
 
 fn grey() -> Image {
-    Image { width: 1, height: 1, channels: 1, pixels: Pixels::U8(vec![128]), primaries: None }
+    Image { width: 1, height: 1, channels: 1, pixels: Pixels::U8(vec![128]), primaries: None, notes: vec![] }
 }
 
 /// What stands in for a picture that is missing: nobody paints anything so.
@@ -135,5 +135,12 @@ fn squares() -> Image {
         if (i % SIDE / SQUARE + i / SIDE / SQUARE).is_multiple_of(2) { [255, 0, 255] } else { [0; 3] }
     };
     let texels = (0..SIDE * SIDE).flat_map(texel).collect();
-    Image { width: SIDE, height: SIDE, channels: 3, pixels: Pixels::U8(texels), primaries: None }
+    Image {
+        width: SIDE,
+        height: SIDE,
+        channels: 3,
+        pixels: Pixels::U8(texels),
+        primaries: None,
+        notes: vec![],
+    }
 }

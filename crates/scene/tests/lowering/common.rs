@@ -18,12 +18,15 @@ impl Resolver for Memory {
             "tiny.png" => return Ok(picture(path, [4, 4], |_| 0.0)),
             "grey.png" => return Ok(picture(path, [4, 4], |_| 0.5)),
             "dusty.png" => return Ok(picture(path, [4, 4], |i| if i == 5 { 0.0 } else { 1.0 })),
+            "glass.tga" => return Ok(half_clear(path)),
             "oblong.png" => return Ok(picture(path, [1024, 512], |_| 0.0)),
             "odd.png" => return Ok(picture(path, [600, 600], |_| 0.0)),
             "black.png" => return Ok(picture(path, [512, 512], |_| 0.0)),
             "ultraviolet.nk" => b"4 100 200 1\n1 2\n1 2\n",
             "blue.nk" => b"4 350 500 1\n1 2\n1 2\n",
             "green.nk" => b"4 500 550 1\n1 2\n1 2\n",
+            "noted.nk" => b"4 380 780 1\n1 2\n1 2\n\nby hand\n",
+            "nkdata/au.nk" => b"4 380 780 1\n1 2\n1 2\n",
             "whole.nk" => b"\xef\xbb\xbf4 380 780 1\n1 2\n1 2\n",
             "inifile.xml" => {
                 b"<settings><width>40</width><height>30</height><max_depth>7</max_depth></settings>"
@@ -40,6 +43,12 @@ fn picture(path: &str, [width, height]: [u32; 2], texel: impl Fn(u32) -> f32) ->
     let picture = indigo_imaging::Picture { width, height, pixels };
     let bytes = indigo_imaging::png::encode(&picture, &indigo_imaging::Metadata::default(), Depth::Eight);
     Resolved { path: path.to_owned(), bytes: bytes.expect("a picture with pixels").into() }
+}
+
+/// A TGA of one texel of 32 bits, half transparent.
+fn half_clear(path: &str) -> Resolved {
+    let header = [0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 1, 0, 32, 8];
+    Resolved { path: path.to_owned(), bytes: [&header[..], &[10, 20, 30, 128]].concat().into() }
 }
 
 /// An EXR of two texels, one of which is NaN, a number and infinite.
@@ -82,6 +91,12 @@ pub fn found(rest: &str) -> Vec<String> {
             place.map_or_else(|| d.code.to_owned(), |p| format!("{}:{}:{}", p.line, p.column, d.code))
         })
         .collect()
+}
+
+/// All that is said of `HEAD` + `rest`, and what was expected.
+pub fn said(rest: &str) -> Vec<(String, Option<String>)> {
+    let loaded = loaded(&format!("{HEAD}{rest}</scene>"));
+    loaded.sink.diagnostics().iter().map(|d| (d.message.clone(), d.label.clone())).collect()
 }
 
 /// Expects exactly one finding in a line after the head, at the text `at`, with a code.

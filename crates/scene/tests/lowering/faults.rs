@@ -172,8 +172,9 @@ fn media_too_dense_for_their_size_are_told() {
         let model = format!("<model><pos>0 0 0</pos><scale>{side}</scale><mesh_name>tri</mesh_name></model>");
         let loaded = loaded(&format!("{head}{medium}{CAMERA}{MESH}{model}</scene>"));
         let codes: Vec<&str> = loaded.sink.diagnostics().iter().map(|d| d.code).collect();
-        assert!(codes.iter().all(|&code| code == "W0323"), "{codes:?}");
-        codes.len() == 1
+        // A triangle is not closed, either.
+        assert!(codes.iter().all(|code| ["W0323", "W0329"].contains(code)), "{codes:?}");
+        codes.contains(&"W0323")
     };
     // Rays keep 36 roundings of a triangle's side off it, 2 micrometres of a metre.
     assert!(warned(1.0, 1e5, "<uniform/>"));

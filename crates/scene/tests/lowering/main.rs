@@ -4,5 +4,7 @@
 mod common;
 mod elements;
 mod faults;
+mod files;
 mod materials;
 mod settings;
+mod surfaces;

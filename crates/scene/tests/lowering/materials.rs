@@ -17,6 +17,9 @@ fn blend(a: &str, b: &str) -> String {
     format!("<blend><blend_factor>0.5</blend_factor><a_name>{a}</a_name><b_name>{b}</b_name></blend>")
 }
 
+const MATT: &str =
+    "<diffuse><albedo_spectrum><uniform><value>0.5</value></uniform></albedo_spectrum></diffuse>";
+
 #[test]
 fn blends_of_what_cannot_be_blended() {
     let null = material("none", "<null_material/>");
@@ -95,6 +98,35 @@ fn a_chain_of_blends_may_be_long_but_not_without_end() {
     assert_eq!(found(&format!("{}\n{CAMERA}", chain(150))), Vec::<String>::new());
     let codes = found(&format!("{}\n{CAMERA}", chain(5000)));
     assert!(codes.len() == 1 && codes[0].ends_with("E0312"), "{codes:?}");
+}
+
+/// What is reached at the greatest depth is no blend, and as often as one likes.
+#[test]
+fn too_deep_blends_are_told_once_and_with_what_was_expected() {
+    let chain = |n: usize| {
+        let link = |i: usize| material(&format!("m{i}"), &blend(&format!("m{}", i + 1), "leaf"));
+        let leaf = material("leaf", MATT);
+        (0..n).map(link).collect::<String>() + &leaf + &material(&format!("m{n}"), MATT) + &sphere_of("m0")
+    };
+    assert!(found(&format!("{}{CAMERA}", chain(200))).is_empty());
+    let deep = said(&format!("{}{CAMERA}", chain(201)));
+    let [(message, expected)] = &deep[..] else { panic!("{deep:?}") };
+    assert!(message.contains("more than 200 deep"), "{message}");
+    assert_eq!(expected.as_deref(), Some("expected a tree of blends that is not so deep"));
+}
+
+/// However long the way round is.
+#[test]
+fn a_long_round_of_blends_is_told_as_one() {
+    for n in [3, 199, 200, 201, 1000, 20_000] {
+        let link = |i: usize| material(&format!("m{i}"), &blend(&format!("m{}", (i + 1) % n), "white"));
+        let round = (0..n).map(link).collect::<String>() + &sphere_of("m0");
+        let said = said(&format!("{round}{CAMERA}"));
+        let [(message, Some(expected))] = &said[..] else { panic!("{n}: {said:?}") };
+        assert!(message.contains("is made of itself") && message.len() < 120, "{message}");
+        assert_eq!(expected, "expected a material that is made of others");
+        assert_eq!(message.contains(" others, then "), n > 6, "{message}");
+    }
 }
 
 /// A blend of a blend with itself doubles what it is made of, and any ray that looks through it asks all of that.

@@ -65,7 +65,7 @@ fn canonical(elements: &str) -> Loaded {
     });
     let text = written.text.expect("a scene without errors");
     let loaded = load("scene.igs", &LoadOptions::new(&beside(text.clone())));
-    assert_eq!(findings(&loaded), [], "nothing is left to be told of\n{text}");
+    assert_eq!(of_the_writing(&loaded), [], "nothing is left to be told of\n{text}");
     loaded
 }
 
@@ -82,6 +82,14 @@ fn beside(scene: String) -> Memory {
 /// Everything that was found, as code and message.
 pub fn findings(loaded: &Loaded) -> Vec<(Severity, String)> {
     loaded.sink.diagnostics().iter().map(|d| (d.severity, format!("{} {}", d.code, d.message))).collect()
+}
+
+/// Those that are not of the scene itself, however it is written.
+fn of_the_writing(loaded: &Loaded) -> Vec<(Severity, String)> {
+    let of_the_scene = ["W0103 <exponent> has no effect beside <roughness>", "W0329"];
+    let mut found = findings(loaded);
+    found.retain(|(_, said)| !of_the_scene.iter().any(|known| said.starts_with(known)));
+    found
 }
 
 /// What light meets in a scene, in full.
@@ -110,7 +118,11 @@ pub fn scene_with(elements: &str, expected: &[&str]) -> Scene {
 #[track_caller]
 pub fn assert_same([old, new, other]: [&str; 3]) {
     let anew = dump(&canonical(new).scene.expect("a scene without errors"));
-    let [old, new, other] = [old, new, other].map(|elements| dump(&scene_with(elements, &[])));
+    let [old, new, other] = [old, new, other].map(|elements| {
+        let loaded = loaded(elements);
+        assert_eq!(of_the_writing(&loaded), [], "in {elements}");
+        dump(&loaded.scene.expect("a scene without errors"))
+    });
     assert!(old == new, "the spellings differ:\n{}", difference(&old, &new));
     assert!(old != other, "the comparison sees no difference");
     assert!(old == anew, "written anew it differs:\n{}", difference(&old, &anew));

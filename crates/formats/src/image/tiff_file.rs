@@ -1,0 +1,250 @@
+//! TIFF (6.0, and BigTIFF): the first page, in grey or colour, of samples of up to 16 bits or of floating-point numbers.
+//!
+//! What is refused is named in the words of the format, not in those of the decoder.
+
+use std::io::{Cursor, ErrorKind};
+use std::ops::RangeInclusive;
+
+use ::tiff::TiffError;
+use ::tiff::decoder::{Decoder, DecodingResult, Limits};
+use ::tiff::tags::Tag;
+
+use super::{ALPHA, Image, Pixels, check_memory, check_sides, colours_of, decoder_error};
+use crate::error::{FormatError, Position};
+
+/// Values of the tag `PhotometricInterpretation`.
+const WHITE_IS_ZERO: u16 = 0;
+const BLACK_IS_ZERO: u16 = 1;
+const RGB: u16 = 2;
+/// Values of `SampleFormat`.
+const UNSIGNED: u16 = 1;
+const FLOAT: u16 = 3;
+/// Values of `Compression` that are read, and how many bytes one can become at most: none; LZW, whose codes of at least 9 bits
+/// stand for fewer than 4096 bytes; Deflate by either of its numbers (258 bytes of two bits); `PackBits` (128 of two).
+const COMPRESSIONS: [(u16, u64); 5] = [(1, 1), (5, 4096), (8, 1032), (0x80B2, 1032), (0x8005, 64)];
+/// Values of `ExtraSamples` that are alphas: of colours that it is multiplied into, and of others.
+const ALPHAS: RangeInclusive<u16> = 1..=2;
+
+const EXPECTED: &str = "a TIFF in grey or red, green and blue, of unsigned samples of 1, 2, 4 (grey), 8 or 16 bits or \
+                        floating-point ones of 16 or 32, not compressed or by LZW, Deflate or PackBits";
+const PAGES: &str = "it has more than one page, of which the first is taken";
+const FURTHER_SAMPLES: &str =
+    "it has samples beside those of its colour that are no alpha, and they are dropped";
+
+/// What the tags of a page say of its samples.
+struct Form {
+    bits: u16,
+    is_float: bool,
+    /// Of grey or of colour.
+    channels: usize,
+    /// How many samples a texel has in what is decoded.
+    samples: usize,
+    /// Whether the first sample behind the colour is an alpha.
+    has_alpha: bool,
+    /// Whether there are others.
+    has_further: bool,
+    /// How many bytes of samples a byte of the file can hold at most.
+    growth: u64,
+}
+
+pub(super) fn decode(file: &[u8], most_bytes: u64) -> Result<Image, FormatError> {
+    let mut decoder = Decoder::new(Cursor::new(file)).map_err(complaint)?;
+    let (width, height) = decoder.dimensions().map_err(complaint)?;
+    check_sides(width.into(), height.into())?;
+    let form = Form::read(&mut decoder)?;
+    let layout = decoder.image_buffer_layout().map_err(complaint)?;
+    let texels = u64::from(width) * u64::from(height);
+    let held = layout.complete_len as u64;
+    if held > form.growth.saturating_mul(file.len() as u64) {
+        return Err(cut_off());
+    }
+    // Packed bits, halves and planes are copied into what they become.
+    let is_copied = form.bits < 8 || form.bits == 16 && form.is_float || layout.planes > 1;
+    let value_bytes = if form.is_float { 4 } else { form.bits.div_ceil(8).into() };
+    let copy = if is_copied { texels * form.channels as u64 * value_bytes } else { 0 };
+    check_memory(held.saturating_add(copy), most_bytes)?;
+
+    let mut limits = Limits::unlimited();
+    limits.decoding_buffer_size = usize::try_from(held).unwrap_or(usize::MAX);
+    let is_paged = decoder.more_images();
+    let mut decoder = decoder.with_limits(limits);
+    let mut samples = DecodingResult::U8(vec![]);
+    decoder.read_image_to_buffer(&mut samples).map_err(complaint)?;
+
+    let shape = Shape { width: width as usize, texels: texels as usize, is_planar: layout.planes > 1 };
+    let mut is_opaque = true;
+    let pixels = match samples {
+        DecodingResult::U8(v) if form.bits < 8 => Pixels::U8(unpacked(&v, form.bits, &shape)),
+        DecodingResult::U8(v) => Pixels::U8(form.colours(v, &shape, u8::MAX, &mut is_opaque)),
+        DecodingResult::U16(v) => Pixels::U16(form.colours(v, &shape, u16::MAX, &mut is_opaque)),
+        DecodingResult::F32(v) => Pixels::F32(form.colours(v, &shape, 1.0, &mut is_opaque)),
+        DecodingResult::F16(v) => {
+            let values: Vec<f32> = v.iter().map(|value| value.to_f32()).collect();
+            Pixels::F32(form.colours(values, &shape, 1.0, &mut is_opaque))
+        }
+        _ => return Err(refused("samples of another kind")),
+    };
+    let notes = [(is_paged, PAGES), (!is_opaque, ALPHA), (form.has_further, FURTHER_SAMPLES)];
+    let notes = notes.into_iter().filter(|(is_so, _)| *is_so).map(|(_, note)| note).collect();
+    Ok(Image { width, height, channels: form.channels as u8, pixels, primaries: None, notes })
+}
+
+/// The values of a tag; what a file does not say is so by the standard.
+fn stated(decoder: &mut Decoder<Cursor<&[u8]>>, tag: Tag, default: u16) -> Result<Vec<u16>, FormatError> {
+    let values = decoder.find_tag_unsigned_vec::<u16>(tag).map_err(complaint)?;
+    Ok(values.filter(|values| !values.is_empty()).unwrap_or_else(|| vec![default]))
+}
+
+/// How samples lie in what is decoded.
+struct Shape {
+    width: usize,
+    texels: usize,
+    /// Whether all of one channel come before those of the next.
+    is_planar: bool,
+}
+
+impl Form {
+    fn read(decoder: &mut Decoder<Cursor<&[u8]>>) -> Result<Self, FormatError> {
+        let mut one = |tag: Tag, default: u16| {
+            stated(decoder, tag, default).map(|values| values.first().copied().unwrap_or(default))
+        };
+        let kind = one(Tag::PhotometricInterpretation, BLACK_IS_ZERO)?;
+        let samples = one(Tag::SamplesPerPixel, 1)?;
+        let compression = one(Tag::Compression, 1)?;
+        let predictor = one(Tag::Predictor, 1)?;
+        let is_chunky = one(Tag::PlanarConfiguration, 1)? == 1;
+        let bits = stated(decoder, Tag::BitsPerSample, 1)?;
+        let formats = stated(decoder, Tag::SampleFormat, UNSIGNED)?;
+        let extra = decoder.find_tag_unsigned_vec::<u16>(Tag::ExtraSamples).map_err(complaint)?;
+        let extra = extra.unwrap_or_default();
+
+        let channels = match kind {
+            WHITE_IS_ZERO | BLACK_IS_ZERO => 1,
+            RGB => 3,
+            other => return Err(refused(name_of(other))),
+        };
+        let Some(&(_, growth)) = COMPRESSIONS.iter().find(|(number, _)| *number == compression) else {
+            return Err(refused(format!("compression {}", name_of_compression(compression))));
+        };
+        let is_float = formats.iter().all(|&format| format == FLOAT);
+        let widths: &[u16] = match (is_float, formats.iter().all(|&format| format == UNSIGNED)) {
+            (true, _) => &[16, 32],
+            (_, true) if samples == 1 => &[1, 2, 4, 8, 16],
+            (_, true) => &[8, 16],
+            _ => &[],
+        };
+        let widest = bits.iter().max().copied().unwrap_or_default();
+        if !bits.iter().all(|width| *width == widest) || !widths.contains(&widest) {
+            let format = match formats.first().copied() {
+                Some(UNSIGNED) => "unsigned",
+                Some(FLOAT) => "floating-point",
+                _ => "signed or other",
+            };
+            return Err(refused(format!("{samples} {format} samples of {widest} bits")));
+        }
+        if kind == WHITE_IS_ZERO && (samples > 1 || is_float && widest == 16) {
+            return Err(refused("grey whose 0 is white, of halves or with further samples"));
+        }
+        let samples = usize::from(samples);
+        if samples < channels {
+            return Err(refused(format!("{samples} samples a texel for red, green and blue")));
+        }
+        // A fourth sample of which nothing is said the decoder takes for an alpha, as nearly all programs do.
+        let has_alpha = match extra.first() {
+            Some(first) => ALPHAS.contains(first),
+            None => kind == RGB && samples == 4,
+        };
+        let decoded = if kind == RGB { channels + usize::from(has_alpha) } else { samples };
+        // The decoder (`tiff` 0.11.3) would add up differences of samples after it has left out some of them.
+        if decoded < samples && predictor != 1 && is_chunky {
+            return Err(refused("a predictor over samples that are neither colour nor alpha"));
+        }
+        let has_further = samples > channels + usize::from(has_alpha);
+        Ok(Self { bits: widest, is_float, channels, samples: decoded, has_alpha, has_further, growth })
+    }
+
+    /// The colours among samples. Clears `is_opaque` where an alpha says otherwise.
+    fn colours<T: Copy + PartialEq>(
+        &self,
+        mut values: Vec<T>,
+        shape: &Shape,
+        opaque: T,
+        is_opaque: &mut bool,
+    ) -> Vec<T> {
+        if !shape.is_planar {
+            let alpha = self.has_alpha.then_some(opaque);
+            return colours_of(values, self.samples, self.channels, alpha, is_opaque);
+        }
+        if self.has_alpha {
+            let alphas = values.iter().skip(self.channels * shape.texels).take(shape.texels);
+            *is_opaque &= alphas.copied().all(|alpha| alpha == opaque);
+        }
+        values.truncate(self.channels * shape.texels);
+        if self.channels == 1 {
+            values.shrink_to_fit();
+            return values;
+        }
+        let (red, others) = values.split_at(shape.texels);
+        let (green, blue) = others.split_at(shape.texels);
+        let mut colours = Vec::with_capacity(values.len());
+        for ((r, g), b) in red.iter().zip(green).zip(blue) {
+            colours.extend([*r, *g, *b]);
+        }
+        colours
+    }
+}
+
+/// Shades of grey of 1, 2 or 4 bits, of which rows begin with a byte, spread out to 0 to 255.
+fn unpacked(bytes: &[u8], bits: u16, shape: &Shape) -> Vec<u8> {
+    let per_byte = usize::from(8 / bits);
+    let most = (1_u8 << bits) - 1;
+    let mut shades = Vec::with_capacity(shape.texels);
+    for row in bytes.chunks_exact(shape.width.div_ceil(per_byte)) {
+        let of_byte = |byte: &u8| {
+            let byte = *byte;
+            (0..per_byte).rev().map(move |i| (byte >> (i * usize::from(bits)) & most) * (255 / most))
+        };
+        shades.extend(row.iter().flat_map(of_byte).take(shape.width));
+    }
+    shades
+}
+
+fn name_of(kind: u16) -> String {
+    match kind {
+        3 => "colours from a palette".to_owned(),
+        4 => "a mask".to_owned(),
+        5 => "inks (CMYK)".to_owned(),
+        6 => "luminance and differences of colour (YCbCr)".to_owned(),
+        8..=10 => "colours of L*a*b*".to_owned(),
+        other => format!("colours of kind {other}"),
+    }
+}
+
+fn name_of_compression(number: u16) -> String {
+    match number {
+        2..=4 => "as of a fax".to_owned(),
+        6 | 7 => "by JPEG".to_owned(),
+        50_000 => "by Zstandard".to_owned(),
+        50_001 => "by WebP".to_owned(),
+        other => format!("number {other}"),
+    }
+}
+
+fn refused(found: impl Into<String>) -> FormatError {
+    FormatError::new(Position::Byte(0), EXPECTED, found)
+}
+
+fn cut_off() -> FormatError {
+    FormatError::new(Position::Byte(0), "a whole TIFF file", "its end before that of its samples")
+}
+
+fn complaint(error: TiffError) -> FormatError {
+    match error {
+        TiffError::IoError(error) if error.kind() == ErrorKind::UnexpectedEof => cut_off(),
+        TiffError::UnsupportedError(what) => refused(what.to_string()),
+        error => decoder_error("TIFF", &error),
+    }
+}
+
+#[cfg(test)]
+mod tests;

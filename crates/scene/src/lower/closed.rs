@@ -1,0 +1,108 @@
+//! Whether a mesh is closed, as the surface of a medium has to be: light that gets in otherwise than it gets out takes the
+//! medium along, or leaves it behind.
+
+use super::geometry::Placed;
+use super::materials::MaterialTable;
+use super::meshes::MeshTable;
+use crate::codes;
+use indigo_diag::{Diagnostic, Sink, Span};
+use indigo_geom::TriangleMesh;
+use std::collections::HashMap;
+
+/// Meshes of more triangles are not looked at: it would take seconds.
+const MOST_TRIANGLES: usize = 1 << 22;
+
+/// Warns of a mesh that is the surface of a medium and has holes.
+pub(super) fn warn_if_open(
+    placed: &Placed,
+    span: Span,
+    meshes: &mut MeshTable,
+    materials: &MaterialTable,
+    sink: &mut Sink,
+) {
+    let is_surface = placed.slots.iter().any(|slot| materials.bounds_medium(*slot));
+    if !is_surface || meshes.known(&placed.name).is_none_or(|mesh| mesh.has_gaps) {
+        return;
+    }
+    let open = meshes.open_edges(placed.mesh);
+    if open > 0 {
+        let message = format!(
+            "mesh {} is the surface of a medium, but not closed: {open} of its edges are open",
+            placed.name
+        );
+        let warning = Diagnostic::warning(codes::NOT_CLOSED, span, message);
+        let warning = warning.note("light that passes beside it is taken to be in the medium where it is not, or the other way round");
+        sink.push_or_count(warning.hint("close the mesh, or make it one with the meshes that close it"));
+    }
+}
+
+/// How many edges are those of an odd number of triangles. Of a closed surface none is, whether it meets itself or not.
+/// Vertices in one place are one: meshes have several where normals or texture coordinates differ.
+pub(super) fn open_edges(mesh: &TriangleMesh) -> usize {
+    if mesh.triangles().len() > MOST_TRIANGLES {
+        return 0;
+    }
+    let mut numbers = HashMap::new();
+    // Adding 0 makes one of both zeros.
+    let place = |p: &[f32; 3]| p.map(|x| (x + 0.0).to_bits());
+    let vertices: Vec<u32> = mesh
+        .positions()
+        .iter()
+        .map(|p| {
+            let next = numbers.len() as u32;
+            *numbers.entry(place(p)).or_insert(next)
+        })
+        .collect();
+    let mut edges: Vec<(u32, u32)> = vec![];
+    for corners in mesh.triangles() {
+        let [a, b, c] = corners.map(|i| vertices[i as usize]);
+        let of_length = [(a, b), (b, c), (c, a)].into_iter().filter(|(from, to)| from != to);
+        edges.extend(of_length.map(|(from, to)| (from.min(to), from.max(to))));
+    }
+    edges.sort_unstable();
+    edges.chunk_by(|a, b| a == b).filter(|same| same.len() % 2 == 1).count()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use indigo_geom::MeshBuffers;
+
+    fn mesh(positions: &[[f32; 3]], triangles: &[[u32; 3]]) -> TriangleMesh {
+        let (positions, triangles) = (positions.to_vec(), triangles.to_vec());
+        TriangleMesh::new(MeshBuffers { positions, triangles, ..MeshBuffers::default() })
+            .expect("a sound mesh")
+    }
+
+    const CORNERS: [[f32; 3]; 4] = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    const SIDES: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+
+    #[test]
+    fn edges_of_one_triangle_are_open() {
+        assert_eq!(open_edges(&mesh(&CORNERS, &SIDES)), 0);
+        assert_eq!(open_edges(&mesh(&CORNERS, &SIDES[..3])), 3);
+        assert_eq!(open_edges(&mesh(&CORNERS, &SIDES[..2])), 4);
+        assert_eq!(open_edges(&mesh(&CORNERS, &[])), 0);
+    }
+
+    /// Corners of their own for each side, with zeros of either sign, and a triangle that is no more than an edge.
+    #[test]
+    fn vertices_in_one_place_are_one() {
+        let mut own: Vec<[f32; 3]> = SIDES.iter().flatten().map(|&i| CORNERS[i as usize]).collect();
+        own[0] = [-0.0, 0.0, -0.0];
+        let mut sides: Vec<[u32; 3]> = (0..4).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+        assert_eq!(open_edges(&mesh(&own, &sides)), 0);
+        sides.push([0, 1, 3]);
+        assert_eq!(open_edges(&mesh(&own, &sides)), 0);
+    }
+
+    /// Two bodies that share an edge, of which it has four triangles.
+    #[test]
+    fn a_surface_may_meet_itself() {
+        let mut corners = CORNERS.to_vec();
+        corners.extend([[0.0, -1.0, 0.0], [0.0, 0.0, -1.0]]);
+        let mut sides = SIDES.to_vec();
+        sides.extend([[0, 4, 1], [0, 1, 5], [1, 4, 5], [4, 0, 5]]);
+        assert_eq!(open_edges(&mesh(&corners, &sides)), 0);
+    }
+}

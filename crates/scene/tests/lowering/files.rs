@@ -1,0 +1,69 @@
+//! Files: what of them is left out, and what is missing.
+
+use super::common::*;
+use indigo_scene::{LoadOptions, load};
+
+const SPHERE: &str =
+    "<sphere><center>0 0 0</center><radius>1</radius><material_name>m</material_name></sphere>";
+
+fn metal(file: &str) -> String {
+    format!(
+        "<material><name>m</name><phong><nk_data>{file}</nk_data><exponent>100</exponent></phong></material>{SPHERE}"
+    )
+}
+
+/// Of a picture that is not opaque, wherever it is named: that all of it is taken as if it were.
+#[test]
+fn alpha_that_is_dropped_is_told() {
+    let texture = "<diffuse><albedo_texture><path>glass.tga</path></albedo_texture></diffuse>";
+    let rest = format!(
+        "<material><name>a</name>{texture}</material><sphere><center>0 0 0</center><radius>1</radius><material_name>a</material_name></sphere>"
+    );
+    expect_one(&rest, "glass.tga", "W0303");
+    let opaque = rest.replace("glass.tga", "grey.png");
+    assert!(found(&format!("{opaque}\n{CAMERA}{MESH}")).is_empty());
+    let aperture = "<aperture_shape><image><path>glass.tga</path></image></aperture_shape></camera>";
+    let camera = CAMERA.replace("</camera>", aperture);
+    let found = found(&format!("{camera}{MESH}"));
+    assert!(found[0].ends_with("W0303"), "{found:?}");
+}
+
+#[test]
+fn text_behind_refractive_indices_is_told() {
+    expect_one(&metal("noted.nk"), "noted.nk", "W0303");
+    let said = said(&format!("{}{CAMERA}", metal("noted.nk")));
+    assert!(said[0].0.starts_with("noted.nk:5:1: text behind"), "{said:?}");
+    assert!(found(&format!("{}{CAMERA}", metal("whole.nk"))).is_empty());
+}
+
+/// One of the name comes with the program.
+#[test]
+fn a_missing_file_is_told_with_what_was_expected() {
+    expect_one(&metal("au.nk"), "au.nk", "E0302");
+    let loaded = loaded(&format!("{HEAD}{}{CAMERA}</scene>", metal("metals/au.nk")));
+    let [missing] = loaded.sink.diagnostics() else { panic!("one error") };
+    assert_eq!(missing.label.as_deref(), Some("expected the path of a file that is there"));
+    assert_eq!(missing.hint.as_deref(), Some("did you mean nkdata/au.nk?"));
+}
+
+/// Nothing of it is rendered, so only a check tells of it.
+#[test]
+fn files_without_an_effect_are_looked_for_where_a_scene_is_checked() {
+    let texture = |path: &str| format!("<albedo_texture><path>{path}</path></albedo_texture>");
+    let unused = format!("<material><name>u</name><diffuse>{}</diffuse></material>", texture("nowhere.png"));
+    let overridden = "<material><name>m</name><phong><ior>1.5</ior><exponent>9</exponent><exponent_map><path>gone.png</path></exponent_map><roughness>0.1</roughness></phong></material>";
+    let sound = format!("<material><name>v</name><diffuse>{}</diffuse></material>", texture("grey.png"));
+    let text = format!("{HEAD}{unused}{overridden}{SPHERE}{sound}{CAMERA}</scene>");
+    let memory = Memory(text);
+    for check_only in [false, true] {
+        let loaded = load("scene.igs", &LoadOptions { check_only, ..options(&memory) });
+        let missing = loaded.sink.diagnostics().iter().filter(|d| d.code == "W0327");
+        let missing: Vec<&str> = missing.map(|d| d.message.as_str()).collect();
+        assert!(!loaded.sink.has_errors(), "{:?}", loaded.sink.diagnostics());
+        assert_eq!(missing.len(), if check_only { 2 } else { 0 }, "{missing:?}");
+        assert!(
+            missing.iter().zip(["nowhere", "gone"]).all(|(said, name)| said.contains(name)),
+            "{missing:?}"
+        );
+    }
+}
