@@ -297,7 +297,8 @@ fn judge_row(
         comparison = Comparison { t: comparison.t.min(0.0), p: 1.0, ..comparison };
     }
     let scale = if expected.mean == 0.0 { check.unit } else { expected.mean.abs() };
-    let resolution = quantile(threshold, comparison.freedom) * comparison.error / scale;
+    // What is granted is not noticed.
+    let resolution = (quantile(threshold, comparison.freedom) * comparison.error + allowance) / scale;
     let mut failure = None;
     if comparison.p < threshold {
         failure = Some("deviates".to_owned());
@@ -350,7 +351,7 @@ fn judge_blocks(
         is_bound: false,
         measured,
         comparison,
-        resolution: resolutions[tests / 2] * quantile(sidak(threshold, tests), 15.0),
+        resolution: resolutions[tests / 2] * quantile(sidak(threshold, tests), comparison.freedom),
         threshold,
         failure,
     }

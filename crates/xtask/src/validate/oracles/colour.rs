@@ -2,18 +2,37 @@
 
 use super::super::check::{Check, PATH, Quantity, Target};
 use super::super::text::background;
-use super::looking;
+use super::{integral, looking};
 
 const GROUP: &str = "Colour";
 
-/// Temperature; luminance (cd/m²) and chromaticity by Planck's law and the observer of 1931, 360 to 830 nm.
-const BLACK_BODIES: [(f64, f64, f64, f64); 5] = [
-    (2000.0, 463_765.0, 0.526_68, 0.413_30),
-    (2856.0, 1.974_98e7, 0.447_54, 0.407_43),
-    (4000.0, 2.528_07e8, 0.380_44, 0.376_75),
-    (6500.0, 3.072_53e9, 0.313_53, 0.323_63),
-    (20_000.0, 6.254_62e10, 0.256_46, 0.257_63),
-];
+/// Colour matching functions of the observer of 1931 at each whole nanometre from 360, between which they run straight.
+const OBSERVER: &[[f64; 3]] = &include!("../../../../spectrum/data/cie1931_2deg_xyz_1nm.in");
+const FIRST_NM: f64 = 360.0;
+/// Lumens of a watt at 555 nm, where the observer's y is 1: 683 by definition at 540 THz, which is 555.017 nm in air.
+const EFFICACY: f64 = 683.002;
+
+/// X, Y and Z of a radiance in W m⁻² sr⁻¹ nm⁻¹ from one wavelength to another, in cd/m².
+fn tristimulus(from: f64, to: f64, radiance: impl Fn(f64) -> f64) -> [f64; 3] {
+    [0, 1, 2].map(|k| {
+        let weighted = |nm: f64| {
+            let place = nm - FIRST_NM;
+            let [below, above] = [0, 1].map(|i| OBSERVER[(place as usize + i).min(OBSERVER.len() - 1)][k]);
+            radiance(nm) * (below + place.fract() * (above - below))
+        };
+        // A number of steps in each nanometre: none crosses a bend.
+        EFFICACY * integral(from, to, 40 * (to - from) as u32, weighted)
+    })
+}
+
+/// Planck's law, in W m⁻² sr⁻¹ nm⁻¹, with the constants of the SI of 2019.
+fn planck(nm: f64, kelvin: f64) -> f64 {
+    const H: f64 = 6.626_070_15e-34;
+    const C: f64 = 299_792_458.0;
+    const K: f64 = 1.380_649e-23;
+    let m = nm * 1e-9;
+    2.0 * H * C * C / m.powi(5) / (H * C / (m * K * kelvin)).exp_m1() * 1e-9
+}
 
 fn seen(name: &str, about: &str, spectrum: &str) -> Check {
     let scene = looking([0.0; 3], [0.0, 1.0, 0.0], 0.1, "", &[background(spectrum)]);
@@ -23,22 +42,22 @@ fn seen(name: &str, about: &str, spectrum: &str) -> Check {
 /// All of them.
 pub fn checks() -> Vec<Check> {
     let mut checks = vec![];
-    for (temperature, luminance, x, y) in BLACK_BODIES {
+    let last_nm = FIRST_NM + (OBSERVER.len() - 1) as f64;
+    for temperature in [2000.0, 2856.0, 4000.0, 6500.0, 20_000.0] {
         let spectrum =
             format!("<blackbody><temperature>{temperature}</temperature><gain>1</gain></blackbody>");
-        let about =
-            "Planck's law under the CIE observer of 1931; six digits of luminance, five of chromaticity.";
-        // Half a unit of the last digit of x and y.
-        let ratio = |over: f64| Target::Value(over / y, (5e-6 + 5e-6 * over / y) / y);
+        let about = "Planck's law under the CIE observer of 1931, whose table of whole nanometres runs straight between them, by quadrature.";
+        let [x, y, z] = tristimulus(FIRST_NM, last_nm, |nm| planck(nm, temperature));
+        let exactly = |value: f64| Target::Value(value, 1e-6 * value);
         let check = seen(&format!("black body of {temperature} K"), about, &spectrum);
-        let luminance = Target::Value(luminance, 3e-6 * luminance);
-        let check = check.row("luminance", Quantity::Y, None, luminance);
-        let check = check.row("x / y", Quantity::XOverY, None, ratio(x));
-        checks.push(check.row("z / y", Quantity::ZOverY, None, ratio(1.0 - x - y)));
+        let check = check.row("luminance", Quantity::Y, None, exactly(y));
+        let check = check.row("x / y", Quantity::XOverY, None, exactly(x / y));
+        checks.push(check.row("z / y", Quantity::ZOverY, None, exactly(z / y)));
     }
     let band = "<peak><peak_min>554.5</peak_min><peak_width>1</peak_width><base_value>0</base_value><peak_value>1e9</peak_value></peak>";
-    let about = "1 W m⁻² sr⁻¹ in a band of 1 nm at 555 nm has 683 cd/m² (by definition 683 lm/W at 540 THz).";
-    checks.push(seen("555 nm", about, band).is(683.0, 0.02).effort(4096, 2e-2));
+    let about = "1 W m⁻² sr⁻¹ in a band of 1 nm at 555 nm has 683 cd/m² (by definition 683 lm/W at 540 THz), less a twenty-thousandth at the band's edges.";
+    let [_, luminance, _] = tristimulus(554.5, 555.5, |_| 1.0);
+    checks.push(seen("555 nm", about, band).is(luminance, 1e-6 * luminance).effort(4096, 2e-2));
     let white = "<rgb><rgb>1e5 1e5 1e5</rgb></rgb>";
     let about = "An `rgb` spectrum of equal values is light of D65: x = 0.31272, y = 0.32903.";
     let (x, y) = (0.312_72, 0.329_03);
@@ -47,4 +66,25 @@ pub fn checks() -> Vec<Check> {
         seen("white of sRGB", about, white).row("x / y", Quantity::XOverY, None, Target::Value(x / y, near));
     checks.push(check.row("z / y", Quantity::ZOverY, None, Target::Value((1.0 - x - y) / y, near)));
     checks
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Against a table of six digits of luminance and five of chromaticity, made independently, by sums over whole nanometres.
+    #[test]
+    fn black_bodies_are_those_of_a_table() {
+        for (temperature, luminance, x, y) in [
+            (2000.0, 463_765.0, 0.526_68, 0.413_30),
+            (2856.0, 1.974_98e7, 0.447_54, 0.407_43),
+            (6500.0, 3.072_53e9, 0.313_53, 0.323_63),
+            (20_000.0, 6.254_62e10, 0.256_46, 0.257_63),
+        ] {
+            let seen = tristimulus(360.0, 830.0, |nm| planck(nm, temperature));
+            let sum: f64 = seen.iter().sum();
+            assert!((seen[1] / luminance - 1.0).abs() < 1e-5, "{temperature} K: {seen:?}");
+            assert!((seen[0] / sum - x).abs() < 1e-5 && (seen[1] / sum - y).abs() < 1e-5, "{seen:?}");
+        }
+    }
 }

@@ -25,7 +25,7 @@ pub fn checks() -> Vec<Check> {
 /// reflects of a beam from there.
 fn half_spaces() -> Vec<Check> {
     let about = "A half space of fog in even light shows its plane albedo, of Chandrasekhar's H function by quadrature (seven digits). \
-                 It is 40 mean free paths deep here, and as wide that its sides are not seen.";
+                 It is 100 mean free paths deep here, so that less than a millionth comes through it, and as wide that its sides are not seen.";
     let mut checks = vec![];
     for (albedo, cosine, value, samples) in [
         (0.5, 1.0, 0.115_225_9, 512),
@@ -34,9 +34,9 @@ fn half_spaces() -> Vec<Check> {
         (0.99, 1.0, 0.752_720_7, 128),
     ] {
         let slab = Mesh::cube(1.0).placed(
-            [2000.0, 0.0, 0.0, 0.0, 20.0, 0.0, 0.0, 0.0, 2000.0],
+            [2000.0, 0.0, 0.0, 0.0, 50.0, 0.0, 0.0, 0.0, 2000.0],
             1.0,
-            [0.0, 20.0, 0.0],
+            [0.0, 50.0, 0.0],
         );
         let parts = [fog(1.0 - albedo, albedo, 0.0), slab.text("slab", "m") + &model("slab")];
         let sine = (1.0f64 - cosine * cosine).sqrt();

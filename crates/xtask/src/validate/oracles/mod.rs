@@ -8,6 +8,7 @@ mod lamps;
 mod lens;
 mod media;
 mod metal;
+mod patch;
 mod reference;
 mod sky;
 
