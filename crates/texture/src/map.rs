@@ -100,6 +100,11 @@ impl Texture {
         self.share_of(|texel| !texel.iter().all(|v| (low..=high).contains(v)))
     }
 
+    /// Which share of the texels has a scalar below `low` or above `high`. Goes through all of them.
+    pub fn share_of_scalars_beyond(&self, low: Real, high: Real) -> f64 {
+        self.share_of(|texel| !(3.0 * low..=3.0 * high).contains(&texel.iter().sum::<Real>()))
+    }
+
     fn share_of(&self, is_meant: impl Fn([Real; 3]) -> bool) -> f64 {
         let rows = 0..self.height;
         let texels = rows.flat_map(|y| (0..self.width).map(move |x| (x, y)));

@@ -58,7 +58,7 @@ pub(super) fn decode(format: ImageFormat, bytes: &[u8], most_bytes: u64) -> Resu
 
 /// The sides of a PNG, whose header comes first: of impossible ones the decoder does not say what they are.
 fn sides_of_png(file: &[u8]) -> Option<[u32; 2]> {
-    let sides = file.get(16..24)?.as_chunks::<4>().0;
+    let sides = file.strip_prefix(b"\x89PNG\r\n\x1a\n")?.get(8..16)?.as_chunks::<4>().0;
     Some([u32::from_be_bytes(*sides.first()?), u32::from_be_bytes(*sides.last()?)])
 }
 

@@ -6,7 +6,7 @@ use std::io::{Cursor, ErrorKind};
 use std::ops::RangeInclusive;
 
 use ::tiff::TiffError;
-use ::tiff::decoder::{Decoder, DecodingResult, Limits};
+use ::tiff::decoder::{ChunkType, Decoder, DecodingResult, Limits};
 use ::tiff::tags::Tag;
 
 use super::{ALPHA, Image, Pixels, check_memory, check_sides, colours_of, decoder_error};
@@ -39,6 +39,8 @@ struct Form {
     channels: usize,
     /// How many samples a texel has in what is decoded.
     samples: usize,
+    /// The same of a row in the file.
+    encoded: usize,
     /// Whether the first sample behind the colour is an alpha.
     has_alpha: bool,
     /// Whether there are others.
@@ -53,16 +55,19 @@ pub(super) fn decode(file: &[u8], most_bytes: u64) -> Result<Image, FormatError>
     check_sides(width.into(), height.into())?;
     let form = Form::read(&mut decoder)?;
     let layout = decoder.image_buffer_layout().map_err(complaint)?;
+    let decoded = usize::from(decoder.colortype().map_err(complaint)?.num_samples());
+    if layout.planes == 1 && decoded != form.samples {
+        return Err(refused(format!("{decoded} samples a texel of which its tags tell of {}", form.samples)));
+    }
     let texels = u64::from(width) * u64::from(height);
     let held = layout.complete_len as u64;
-    if held > form.growth.saturating_mul(file.len() as u64) {
+    // The decoder keeps a row of a strip or tile besides, with all samples: a file has at least one.
+    let row = form.encoded_row(decoder.chunk_dimensions().0);
+    if held.saturating_add(row) > form.growth.saturating_mul(file.len() as u64) {
         return Err(cut_off());
     }
-    // Packed bits, halves and planes are copied into what they become.
-    let is_copied = form.bits < 8 || form.bits == 16 && form.is_float || layout.planes > 1;
-    let value_bytes = if form.is_float { 4 } else { form.bits.div_ceil(8).into() };
-    let copy = if is_copied { texels * form.channels as u64 * value_bytes } else { 0 };
-    check_memory(held.saturating_add(copy), most_bytes)?;
+    let copies = texels.saturating_mul(form.copied_bytes(layout.planes));
+    check_memory(held.saturating_add(row).saturating_add(copies), most_bytes)?;
 
     let mut limits = Limits::unlimited();
     limits.decoding_buffer_size = usize::try_from(held).unwrap_or(usize::MAX);
@@ -155,12 +160,39 @@ impl Form {
             None => kind == RGB && samples == 4,
         };
         let decoded = if kind == RGB { channels + usize::from(has_alpha) } else { samples };
-        // The decoder (`tiff` 0.11.3) would add up differences of samples after it has left out some of them.
-        if decoded < samples && predictor != 1 && is_chunky {
-            return Err(refused("a predictor over samples that are neither colour nor alpha"));
+        // The decoder (`tiff` 0.11.3) would add up differences of samples after it has left out some of them, and writes over
+        // the texels beside a tile.
+        let is_tiled = decoder.get_chunk_type() == ChunkType::Tile;
+        if decoded < samples && is_chunky && (predictor != 1 || is_tiled) {
+            return Err(refused("tiles, or a predictor, with samples that are neither colour nor alpha"));
         }
         let has_further = samples > channels + usize::from(has_alpha);
-        Ok(Self { bits: widest, is_float, channels, samples: decoded, has_alpha, has_further, growth })
+        let encoded = if is_chunky { samples } else { 1 };
+        Ok(Self {
+            bits: widest,
+            is_float,
+            channels,
+            samples: decoded,
+            encoded,
+            has_alpha,
+            has_further,
+            growth,
+        })
+    }
+
+    /// Bytes of a row of a strip or tile as it is in the file.
+    fn encoded_row(&self, width: u32) -> u64 {
+        let bits = u64::from(width).saturating_mul(self.encoded as u64 * u64::from(self.bits));
+        bits.div_ceil(8)
+    }
+
+    /// Bytes of a texel in what packed bits, halves and planes are copied into.
+    fn copied_bytes(&self, planes: usize) -> u64 {
+        let (is_planar, is_half) = (planes > 1, self.is_float && self.bits == 16);
+        let halves = if is_half { 4 * if is_planar { planes } else { self.samples } } else { 0 };
+        let value = if self.is_float { 4 } else { usize::from(self.bits.div_ceil(8)) };
+        let shades = if self.bits < 8 || is_planar { self.channels * value } else { 0 };
+        (halves + shades) as u64
     }
 
     /// The colours among samples. Clears `is_opaque` where an alpha says otherwise.

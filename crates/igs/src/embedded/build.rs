@@ -173,13 +173,15 @@ impl MeshBuilder {
 
     fn check_uv_sets(&mut self, report: &mut Reporter) {
         let sets = self.data.uv_sets.len();
+        let mut known: HashMap<String, u32> = HashMap::new();
         for (index, name) in std::mem::take(&mut self.exposed) {
-            let known = self.data.uv_names.iter().find(|(known, _)| *known == name.value);
-            if let Some((_, other)) = known.filter(|(_, set)| *set != index.value) {
+            let other = known.get(&name.value).copied();
+            if let Some(other) = other.filter(|set| *set != index.value) {
                 let message = format!("{} is the name of uv set {other} already", name.value);
                 let expected = format!("expected another name for uv set {}", index.value);
                 report.error(codes::BAD_UV_SET, name.span, message, expected);
             } else if (index.value as usize) < sets {
+                known.insert(name.value.clone(), index.value);
                 self.data.uv_names.push((name.value, index.value));
             } else {
                 let message = format!("there is no uv set {}", index.value);

@@ -160,7 +160,8 @@ impl Blend {
         let is_stepped = node.bool("step_blend");
         let share = if let Some(map) = node.node("blend_map") {
             node.disregard_field("blend_factor");
-            let map = resources.fractions(map);
+            // A step is taken wherever its threshold lies.
+            let map = if is_stepped { resources.texture(map) } else { resources.shares(map) };
             if is_stepped { Share::Steps(map) } else { Share::Map(map) }
         } else {
             let share = node.opt_real("blend_factor").map_or(0.0, |f| f.value);

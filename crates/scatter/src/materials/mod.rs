@@ -73,8 +73,12 @@ pub trait MaterialResources {
     fn exponents(&mut self, node: &Node) -> TextureId {
         self.texture(node)
     }
-    /// The image map of fractions from 0 to 1 that a texture element asks for; whatever is wrong with it has been reported.
+    /// The image map of colours from 0 to 1 that a texture element asks for; whatever is wrong with it has been reported.
     fn fractions(&mut self, node: &Node) -> TextureId {
+        self.texture(node)
+    }
+    /// The same of scalars, which are means of the components.
+    fn shares(&mut self, node: &Node) -> TextureId {
         self.texture(node)
     }
     /// The complex index of refraction, n and k by wavelength, of the file that a field names; whatever is wrong

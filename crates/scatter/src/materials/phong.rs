@@ -177,7 +177,7 @@ impl Gloss {
         // What a later version brought counts before what it had from an earlier one.
         disregard_exponents(node, resources.sink());
         if let Some(map) = node.node("roughness_map") {
-            return Self::Widths(resources.fractions(map));
+            return Self::Widths(resources.shares(map));
         }
         if let Some(width) = node.opt_real("roughness") {
             return Self::Uniform(Microfacets::of_width(Real::from_f64(width.value)));

@@ -20,11 +20,12 @@ pub(super) fn warn_if_open(
     materials: &MaterialTable,
     sink: &mut Sink,
 ) {
-    let is_surface = placed.slots.iter().any(|slot| materials.bounds_medium(*slot));
-    if !is_surface || meshes.known(&placed.name).is_none_or(|mesh| mesh.has_gaps) {
+    let bounds = |slot: &u32| materials.bounds_medium(placed.slots[*slot as usize]);
+    let surfaces: Vec<u32> = (0..placed.slots.len() as u32).filter(bounds).collect();
+    if surfaces.is_empty() || meshes.known(&placed.name).is_none_or(|mesh| mesh.has_gaps) {
         return;
     }
-    let open = meshes.open_edges(placed.mesh);
+    let open = meshes.open_edges(placed.mesh, surfaces);
     if open > 0 {
         let message = format!(
             "mesh {} is the surface of a medium, but not closed: {open} of its edges are open",
@@ -36,9 +37,10 @@ pub(super) fn warn_if_open(
     }
 }
 
-/// How many edges are those of an odd number of triangles. Of a closed surface none is, whether it meets itself or not.
-/// Vertices in one place are one: meshes have several where normals or texture coordinates differ.
-pub(super) fn open_edges(mesh: &TriangleMesh) -> usize {
+/// How many edges of triangles of some material slots are those of an odd number of triangles. Of a closed surface none is,
+/// whether it meets itself or not. Vertices in one place are one: meshes have several where normals or texture coordinates
+/// differ.
+pub(super) fn open_edges(mesh: &TriangleMesh, slots: &[u32]) -> usize {
     if mesh.triangles().len() > MOST_TRIANGLES {
         return 0;
     }
@@ -53,14 +55,16 @@ pub(super) fn open_edges(mesh: &TriangleMesh) -> usize {
             *numbers.entry(place(p)).or_insert(next)
         })
         .collect();
-    let mut edges: Vec<(u32, u32)> = vec![];
-    for corners in mesh.triangles() {
+    let mut edges: Vec<([u32; 2], bool)> = vec![];
+    for (triangle, corners) in (0..).zip(mesh.triangles()) {
+        let is_meant = slots.contains(&mesh.material_slot(triangle));
         let [a, b, c] = corners.map(|i| vertices[i as usize]);
         let of_length = [(a, b), (b, c), (c, a)].into_iter().filter(|(from, to)| from != to);
-        edges.extend(of_length.map(|(from, to)| (from.min(to), from.max(to))));
+        edges.extend(of_length.map(|(from, to)| ([from.min(to), from.max(to)], is_meant)));
     }
     edges.sort_unstable();
-    edges.chunk_by(|a, b| a == b).filter(|same| same.len() % 2 == 1).count()
+    let is_open = |same: &&[([u32; 2], bool)]| same.len() % 2 == 1 && same.iter().any(|edge| edge.1);
+    edges.chunk_by(|a, b| a.0 == b.0).filter(is_open).count()
 }
 
 #[cfg(test)]
@@ -79,10 +83,10 @@ mod tests {
 
     #[test]
     fn edges_of_one_triangle_are_open() {
-        assert_eq!(open_edges(&mesh(&CORNERS, &SIDES)), 0);
-        assert_eq!(open_edges(&mesh(&CORNERS, &SIDES[..3])), 3);
-        assert_eq!(open_edges(&mesh(&CORNERS, &SIDES[..2])), 4);
-        assert_eq!(open_edges(&mesh(&CORNERS, &[])), 0);
+        assert_eq!(open_edges(&mesh(&CORNERS, &SIDES), &[0]), 0);
+        assert_eq!(open_edges(&mesh(&CORNERS, &SIDES[..3]), &[0]), 3);
+        assert_eq!(open_edges(&mesh(&CORNERS, &SIDES[..2]), &[0]), 4);
+        assert_eq!(open_edges(&mesh(&CORNERS, &[]), &[0]), 0);
     }
 
     /// Corners of their own for each side, with zeros of either sign, and a triangle that is no more than an edge.
@@ -91,9 +95,9 @@ mod tests {
         let mut own: Vec<[f32; 3]> = SIDES.iter().flatten().map(|&i| CORNERS[i as usize]).collect();
         own[0] = [-0.0, 0.0, -0.0];
         let mut sides: Vec<[u32; 3]> = (0..4).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
-        assert_eq!(open_edges(&mesh(&own, &sides)), 0);
+        assert_eq!(open_edges(&mesh(&own, &sides), &[0]), 0);
         sides.push([0, 1, 3]);
-        assert_eq!(open_edges(&mesh(&own, &sides)), 0);
+        assert_eq!(open_edges(&mesh(&own, &sides), &[0]), 0);
     }
 
     /// Two bodies that share an edge, of which it has four triangles.
@@ -103,6 +107,19 @@ mod tests {
         corners.extend([[0.0, -1.0, 0.0], [0.0, 0.0, -1.0]]);
         let mut sides = SIDES.to_vec();
         sides.extend([[0, 4, 1], [0, 1, 5], [1, 4, 5], [4, 0, 5]]);
-        assert_eq!(open_edges(&mesh(&corners, &sides)), 0);
+        assert_eq!(open_edges(&mesh(&corners, &sides), &[0]), 0);
+    }
+
+    /// A mesh of two materials: a closed body, and a sheet, which is the surface of nothing.
+    #[test]
+    fn edges_of_others_do_not_count() {
+        let mut corners = CORNERS.to_vec();
+        corners.extend([[5.0, 0.0, 0.0], [6.0, 0.0, 0.0], [5.0, 1.0, 0.0]]);
+        let triangles = [&SIDES[..], &[[4, 5, 6]]].concat();
+        let triangle_materials = vec![0, 0, 0, 0, 1];
+        let buffers =
+            MeshBuffers { positions: corners, triangles, triangle_materials, ..MeshBuffers::default() };
+        let mesh = TriangleMesh::new(buffers).expect("a sound mesh");
+        assert_eq!([&[0][..], &[1], &[0, 1]].map(|slots| open_edges(&mesh, slots)), [0, 3, 3]);
     }
 }

@@ -178,9 +178,10 @@ impl<'a> MaterialTable<'a> {
         self.media.check_name(name, span, sink);
     }
 
-    /// Whether the surface of a material is that of a medium inside, other than what is outside anyway.
+    /// Whether light passes the surface of a material into a medium inside, other than what is outside anyway.
     pub(super) fn bounds_medium(&self, id: MaterialId) -> bool {
-        self.materials[id as usize].internal_medium().is_some_and(|medium| medium != MediumId::AIR)
+        let material = &self.materials[id as usize];
+        material.may_transmit() && material.internal_medium().is_some_and(|medium| medium != MediumId::AIR)
     }
 
     /// The image map of a lamp whose mesh has certain uv sets; what is wrong is reported.

@@ -44,8 +44,8 @@ pub(super) struct MeshTable<'a> {
     triangles: Vec<TriangleMesh>,
     /// Parts of meshes by what they are of: `None` where that is no triangle.
     parts: HashMap<(u32, Part), Option<u32>>,
-    /// Open edges of meshes that were asked for.
-    open_edges: HashMap<u32, usize>,
+    /// Open edges of some slots of meshes that were asked for.
+    open_edges: HashMap<(u32, Vec<u32>), usize>,
 }
 
 /// Which triangles of a mesh are meant.
@@ -108,10 +108,16 @@ impl<'a> MeshTable<'a> {
         &self.triangles[id as usize]
     }
 
-    /// How many edges of a mesh are open; looked at once.
-    pub(super) fn open_edges(&mut self, id: u32) -> usize {
+    /// How many edges of some slots of a mesh are open; looked at once.
+    pub(super) fn open_edges(&mut self, id: u32, slots: Vec<u32>) -> usize {
         let triangles = &self.triangles[id as usize];
-        *self.open_edges.entry(id).or_insert_with(|| open_edges(triangles))
+        let key = (id, slots);
+        if let Some(open) = self.open_edges.get(&key) {
+            return *open;
+        }
+        let open = open_edges(triangles, &key.1);
+        self.open_edges.insert(key, open);
+        open
     }
 
     /// Adds a mesh that the scene does not name.

@@ -282,3 +282,96 @@ fn what_is_cut_off_or_too_large_is_refused() {
         assert!(refusal(&wide).expected.contains(expected), "{}", refusal(&wide));
     }
 }
+
+/// A file of one page by its tags, of a number each, and the offset of its data under `data_tag`.
+fn by_tags(tags: &[(Tag, u32)], data_tag: Tag, data: &[u8]) -> Vec<u8> {
+    let mut tags: Vec<(u16, u32)> = tags.iter().map(|(tag, value)| (tag.to_u16(), *value)).collect();
+    let offset = 8 + 2 + 12 * (tags.len() + 1) + 4;
+    tags.push((data_tag.to_u16(), offset as u32));
+    tags.sort_unstable();
+    let mut file = b"II*\0\x08\0\0\0".to_vec();
+    file.extend((tags.len() as u16).to_le_bytes());
+    for (tag, value) in tags {
+        file.extend(tag.to_le_bytes());
+        // One number, of 16 bits where that is enough, or of 32.
+        file.extend([if value > 0xFFFF { 4 } else { 3 }, 0, 1, 0, 0, 0]);
+        file.extend(value.to_le_bytes());
+    }
+    file.extend([0; 4]);
+    file.extend(data);
+    file
+}
+
+/// Tags of a picture of `WIDTH` by `HEIGHT` texels in tiles of 16 by 16.
+fn tiled(samples: u32, more: &[(Tag, u32)]) -> Vec<(Tag, u32)> {
+    let kind = if samples < 3 { BLACK_IS_ZERO } else { RGB };
+    let tags = [
+        (Tag::ImageWidth, WIDTH),
+        (Tag::ImageLength, HEIGHT),
+        (Tag::BitsPerSample, 8),
+        (Tag::Compression, 1),
+        (Tag::PhotometricInterpretation, kind.into()),
+        (Tag::SamplesPerPixel, samples),
+        (Tag::TileWidth, 16),
+        (Tag::TileLength, 16),
+        (Tag::TileByteCounts, 256 * samples),
+    ];
+    let is_other = |(tag, _): &&(Tag, u32)| more.iter().all(|(other, _)| other != tag);
+    tags.iter().filter(is_other).chain(more).copied().collect()
+}
+
+#[test]
+fn tiles_are_cut_to_the_picture() {
+    let data: Vec<u8> = (0..256).flat_map(|i| [i as u8, 7, 9]).collect();
+    let image = read(&by_tags(&tiled(3, &[]), Tag::TileOffsets, &data));
+    let expected = [0, 1, 16, 17, 32, 33].map(|i| [i, 7, 9]).concat();
+    assert_eq!(image.pixels, Pixels::U8(expected));
+}
+
+/// The decoder would write the padding of a tile over the texels beside it.
+#[test]
+fn tiles_with_further_samples_are_refused() {
+    for samples in [4, 5] {
+        let tags = tiled(samples, &[(Tag::ExtraSamples, 0)]);
+        let error = refusal(&by_tags(&tags, Tag::TileOffsets, &vec![3; 256 * samples as usize]));
+        assert!(error.found.contains("neither colour nor alpha"), "{}", error.found);
+    }
+}
+
+/// The decoder takes for an alpha what these tags do not.
+#[test]
+fn samples_that_the_tags_do_not_tell_of_are_refused() {
+    let tags = [
+        (Tag::ImageWidth, WIDTH),
+        (Tag::ImageLength, HEIGHT),
+        (Tag::BitsPerSample, 8),
+        (Tag::Compression, 1),
+        (Tag::PhotometricInterpretation, RGB.into()),
+        (Tag::SamplesPerPixel, 5),
+        (Tag::ExtraSamples, 0),
+        (Tag::RowsPerStrip, HEIGHT),
+        (Tag::StripByteCounts, 5 * TEXELS),
+    ];
+    let file = by_tags(&tags, Tag::StripOffsets, &vec![3; 5 * TEXELS as usize]);
+    let error = refusal(&file);
+    assert!(error.found.contains("4 samples a texel of which its tags tell of 3"), "{}", error.found);
+}
+
+/// A row of a tile is held whole, however small the picture: such a file of 200 bytes asks for a petabyte.
+#[test]
+fn a_small_file_takes_little_memory() {
+    let tags = tiled(
+        1,
+        &[
+            (Tag::BitsPerSample, 32),
+            (Tag::SampleFormat, 3),
+            (Tag::Compression, 5),
+            (Tag::Predictor, 3),
+            (Tag::SamplesPerPixel, 65_535),
+            (Tag::TileWidth, u32::MAX / 16 * 16),
+            (Tag::TileByteCounts, 16),
+        ],
+    );
+    let error = refusal(&by_tags(&tags, Tag::TileOffsets, &[0; 16]));
+    assert_eq!(error.found, cut_off().found);
+}

@@ -46,14 +46,14 @@ impl MaterialResources for Resources<'_, '_, '_, '_, '_> {
     fn fractions(&mut self, node: &Node) -> TextureId {
         let id = self.texture(node);
         let beyond = self.table.textures.texture(id).share_beyond(0.0, 1.0);
-        if beyond > 0.0 {
-            let share = (100.0 * beyond).max(0.1);
-            let path = node.text("path").value;
-            let message = format!(
-                "{path}: {share:.1} % of the texels are below 0 or above 1 by the map's a, b and c, and count as the nearest"
-            );
-            self.context.sink.push_or_count(Diagnostic::warning(codes::BEYOND_FRACTIONS, node.span, message));
-        }
+        self.warn_of_clamping(beyond, node);
+        id
+    }
+
+    fn shares(&mut self, node: &Node) -> TextureId {
+        let id = self.texture(node);
+        let beyond = self.table.textures.texture(id).share_of_scalars_beyond(0.0, 1.0);
+        self.warn_of_clamping(beyond, node);
         id
     }
 
@@ -87,6 +87,19 @@ impl MaterialResources for Resources<'_, '_, '_, '_, '_> {
 }
 
 impl Resources<'_, '_, '_, '_, '_> {
+    /// Tells of texels that count as other than they are, where some do.
+    fn warn_of_clamping(&mut self, beyond: f64, node: &Node) {
+        if beyond == 0.0 {
+            return;
+        }
+        let share = (100.0 * beyond).max(0.1);
+        let path = node.text("path").value;
+        let message = format!(
+            "{path}: {share:.1} % of the texels are below 0 or above 1 by the map's a, b and c, and count as the nearest"
+        );
+        self.context.sink.push_or_count(Diagnostic::warning(codes::BEYOND_FRACTIONS, node.span, message));
+    }
+
     fn uv_set(&mut self, node: &Node) -> u32 {
         let (name, index) = (node.text("uv_set"), node.opt_int("uv_set_index"));
         let UvSets::Named(sets) = self.uv else { return 0 };

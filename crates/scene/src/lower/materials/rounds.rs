@@ -5,7 +5,7 @@ use crate::codes;
 use indigo_decl::{Kind, Node};
 use indigo_diag::{Diagnostic, Sink, Span, Spanned};
 use indigo_scatter::materials::blend;
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 /// So many names of a round are told at its beginning, and at its end.
 const NAMES_TOLD: usize = 3;
@@ -14,7 +14,7 @@ impl MaterialTable<'_> {
     /// Whether a material may be begun: not within itself, nor too deep in others.
     pub(super) fn may_open(&mut self, name: &str, node: Option<&Node>, span: Span, sink: &mut Sink) -> bool {
         if let Some(first) = self.open.iter().position(|open| open == name) {
-            sink.push(made_of_itself(name, span, self.open[first..].iter()));
+            sink.push(made_of_itself(name, span, self.open[first..].iter().map(String::as_str)));
             return false;
         }
         let is_deep = self.open.len() >= blend::MAX_DEPTH as usize;
@@ -53,10 +53,10 @@ impl MaterialTable<'_> {
 
     /// Walks down what a material is made of, each material once, and reports the names that lead back up.
     fn check_round(&self, first: &str, done: &mut HashSet<String>, sink: &mut Sink) {
-        // The materials above, and what is left to be looked at of each. A list of our own: a chain of blends can
+        // The materials above with their places, and what is left to be looked at of each. A list of our own: a chain of blends can
         // be longer than the thread's stack.
         let mut open: Vec<(String, Vec<Spanned<String>>)> = vec![];
-        let mut above: HashSet<String> = HashSet::new();
+        let mut above: HashMap<String, usize> = HashMap::new();
         let mut next = Some(first.to_owned());
         loop {
             if let Some(name) = next.take()
@@ -66,7 +66,7 @@ impl MaterialTable<'_> {
                 for part in &mut parts {
                     part.value = self.names.meant(&part.value).to_owned();
                 }
-                above.insert(name.clone());
+                above.insert(name.clone(), open.len());
                 open.push((name, parts));
             }
             let Some((name, parts)) = open.last_mut() else { return };
@@ -75,11 +75,13 @@ impl MaterialTable<'_> {
                     above.remove(name.as_str());
                     open.pop();
                 }
-                Some(part) if above.contains(&part.value) => {
-                    let round = open.iter().map(|(name, _)| name).skip_while(|name| **name != part.value);
-                    sink.push(made_of_itself(&part.value, part.span, round));
-                }
-                Some(part) => next = Some(part.value),
+                Some(part) => match above.get(&part.value) {
+                    Some(first) => {
+                        let round = open[*first..].iter().map(|(name, _)| name.as_str());
+                        sink.push(made_of_itself(&part.value, part.span, round));
+                    }
+                    None => next = Some(part.value),
+                },
             }
         }
     }
@@ -93,19 +95,27 @@ fn constituents(node: &Node) -> Vec<Spanned<String>> {
 }
 
 /// The error of a material that leads back to itself by way of `round`, which begins with it.
-fn made_of_itself<'n>(name: &str, span: Span, round: impl Iterator<Item = &'n String>) -> Diagnostic {
-    let mut round: Vec<&str> = round.map(String::as_str).collect();
-    round.push(name);
-    let message = format!("material {name} is made of itself: {}", told(&round));
+fn made_of_itself<'n>(
+    name: &'n str,
+    span: Span,
+    round: impl DoubleEndedIterator<Item = &'n str> + ExactSizeIterator + Clone,
+) -> Diagnostic {
+    let message = format!("material {name} is made of itself: {}", told(name, round));
     Diagnostic::error(codes::BLEND_CYCLE, span, message)
         .expected("expected a material that is made of others")
 }
 
-/// The names of a round, and of a long one the first and the last.
-fn told(round: &[&str]) -> String {
-    let Some(others) = round.len().checked_sub(2 * NAMES_TOLD).filter(|others| *others > 1) else {
-        return round.join(", then ");
-    };
-    let (first, last) = (&round[..NAMES_TOLD], &round[round.len() - NAMES_TOLD..]);
-    format!("{}, then {others} others, then {}", first.join(", then "), last.join(", then "))
+/// The names of a round back to the first, and of a long one some at both its ends: there may be as many such rounds as they
+/// are long.
+fn told<'n>(
+    first: &'n str,
+    round: impl DoubleEndedIterator<Item = &'n str> + ExactSizeIterator + Clone,
+) -> String {
+    let named = |names: Vec<&str>| names.join(", then ");
+    let others = (round.len() + 1).checked_sub(2 * NAMES_TOLD).filter(|others| *others > 1);
+    let Some(others) = others else { return named(round.chain([first]).collect()) };
+    let start = round.clone().take(NAMES_TOLD).collect();
+    let mut end: Vec<&str> = [first].into_iter().chain(round.rev()).take(NAMES_TOLD).collect();
+    end.reverse();
+    format!("{}, then {others} others, then {}", named(start), named(end))
 }
