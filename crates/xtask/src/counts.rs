@@ -54,7 +54,7 @@ pub fn run_command(arguments: &[String]) -> Outcome {
     let record = root().join(RECORD);
     match why {
         Some(why) => write(&record, why, &counts),
-        None => compare(&read(&record)?, &counts),
+        None => compare(&read(&record)?, &counts, only.is_none()),
     }
 }
 
@@ -140,7 +140,8 @@ fn verdict(count: u64, on_record: Option<u64>) -> Verdict {
     }
 }
 
-fn compare(record: &Record, counts: &[(String, u64)]) -> Outcome {
+/// Against the record, of which none may be missing where `are_all` are counted.
+fn compare(record: &Record, counts: &[(String, u64)], are_all: bool) -> Outcome {
     let mut others = vec![];
     println!("{:<26} {:>14} {:>14} {:>8}", "kernel", "instructions", "on record", "ratio");
     for (name, count) in counts {
@@ -155,6 +156,10 @@ fn compare(record: &Record, counts: &[(String, u64)]) -> Outcome {
         if verdict != Verdict::Same {
             others.push(name.as_str());
         }
+    }
+    let is_counted = |name: &&String| counts.iter().any(|(counted, _)| counted == *name);
+    if let Some(name) = record.counts.keys().find(|name| are_all && !is_counted(name)) {
+        return Err(format!("{name} is on record, and there is no such kernel"));
     }
     let here = compiler()?;
     if here != record.compiler {

@@ -242,6 +242,8 @@ pub struct Verdict {
     pub measured: Estimate,
     /// The test.
     pub comparison: Comparison,
+    /// What a right renderer may deviate by: what the value is known to, and rounding.
+    pub allowance: f64,
     /// The share of the value that a deviation must have to be seen.
     pub resolution: f64,
     /// The p-value below which it fails.
@@ -306,7 +308,18 @@ fn judge_row(
         failure = Some("too noisy to tell".to_owned());
     }
     let what = row.what.clone();
-    Verdict { renderer, what, expected, is_bound, measured, comparison, resolution, threshold, failure }
+    Verdict {
+        renderer,
+        what,
+        expected,
+        is_bound,
+        measured,
+        comparison,
+        allowance,
+        resolution,
+        threshold,
+        failure,
+    }
 }
 
 /// Blocks along a side of a picture.
@@ -351,6 +364,7 @@ fn judge_blocks(
         is_bound: false,
         measured,
         comparison,
+        allowance: ROUNDING * expected.mean.abs(),
         resolution: resolutions[tests / 2] * quantile(sidak(threshold, tests), comparison.freedom),
         threshold,
         failure,

@@ -107,15 +107,14 @@ fn scene_path(folder: &Path, renderer: Renderer) -> PathBuf {
     folder.join(format!("{renderer:?}.igs").to_lowercase())
 }
 
-/// Of a job: neither two ways nor two checks share random numbers, so that no two verdicts hang together.
-fn seed(job: &Job) -> u64 {
+/// Of a render: neither two ways nor two checks share random numbers, so that no two verdicts hang together.
+pub fn seed(check: &Check, renderer: Renderer, render: usize) -> u64 {
     // FNV-1a, of 32 bits: names that meet would do no harm.
-    let name = job
-        .check
+    let name = check
         .slug()
         .bytes()
         .fold(0x811c_9dc5_u32, |hash, byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193));
-    u64::from(name) * 10_000 + 1000 * job.renderer as u64 + job.seed as u64
+    u64::from(name) * 10_000 + 1000 * renderer as u64 + render as u64
 }
 
 /// One call of the console.
@@ -197,7 +196,7 @@ impl Console {
         let stem = format!("{:?}_{}", job.renderer, job.seed).to_lowercase();
         let folder = self.folder_of(job.check);
         let picture = folder.join(format!("{stem}.png"));
-        let seed = seed(job);
+        let seed = seed(job.check, job.renderer, job.seed);
         let output = std::process::Command::new(&self.program)
             .arg(scene_path(&folder, job.renderer))
             .args([

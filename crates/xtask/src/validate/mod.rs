@@ -27,7 +27,7 @@ use check::{Check, FAMILY, judge};
 use console::Console;
 use report::{Checked, Report};
 
-use crate::{Outcome, process};
+use crate::{Outcome, process, venv};
 
 /// Independent renders of each check, in the quick form and in the full one.
 const SEEDS: [usize; 2] = [16, 64];
@@ -92,6 +92,10 @@ pub fn run(arguments: &[String]) -> Outcome {
     }
     let console = Console::new(options.console.clone(), &options.out.join("scenes"), options.jobs)?;
     let seeds = SEEDS[usize::from(options.full)];
+    if checks.iter().any(|check| check.mitsuba.is_some()) {
+        // Before all that takes long: it may need a network.
+        venv::for_validation()?;
+    }
     let comparisons: usize = checks.iter().map(Check::comparisons).sum();
     println!("{} checks, {comparisons} comparisons, {seeds} renders each", checks.len());
     let mut renders = console.render(&checks, seeds)?;
@@ -110,6 +114,9 @@ pub fn run(arguments: &[String]) -> Outcome {
     };
     report.write(&options.out)?;
     report.say();
+    if !options.mitsuba {
+        println!("left out: the scenes beside Mitsuba (--no-mitsuba)");
+    }
     match report.failures().count() {
         0 => Ok(()),
         count => Err(format!("{count} of {comparisons} comparisons failed")),

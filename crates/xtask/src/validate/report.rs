@@ -95,6 +95,7 @@ impl Report {
                 "measured": v.measured.mean,
                 "standard_error": v.measured.error,
                 "renders": v.measured.count,
+                "granted": v.allowance,
                 "t": v.comparison.t,
                 "degrees_of_freedom": v.comparison.freedom,
                 "p": v.comparison.p,

@@ -85,7 +85,7 @@ def main():
         scene = mi.load_dict(made(job["scene"]))
         pictures = [
             np.array(mi.render(scene, spp=job["samples"], seed=seed), dtype=np.float32) / one
-            for seed in range(1, job["seeds"] + 1)
+            for seed in range(job["first_seed"], job["first_seed"] + job["seeds"])
         ]
         np.stack(pictures).astype("<f4").tofile(job["out"])
 

@@ -9,7 +9,7 @@ use std::path::Path;
 use serde_json::json;
 
 use super::check::{Check, PATH, Quantity, Renderer, TECHNIQUES, Target};
-use super::console::Picture;
+use super::console::{self, Picture};
 use crate::{Outcome, process, venv};
 
 const GROUP: &str = "Beside Mitsuba";
@@ -67,7 +67,8 @@ pub fn render(checks: &[Check], renders: &mut [Vec<Vec<Picture>>], folder: &Path
     let jobs: Vec<serde_json::Value> = wanted
         .iter()
         .map(|(_, check)| {
-            json!({"name": check.name, "scene": check.mitsuba, "samples": check.samples, "seeds": seeds, "out": path(check)})
+            json!({"name": check.name, "scene": check.mitsuba, "samples": check.samples, "seeds": seeds,
+                   "first_seed": first_seed(check), "out": path(check)})
         })
         .collect();
     let write = |name: &str, text: String| {
@@ -84,6 +85,11 @@ pub fn render(checks: &[Check], renders: &mut [Vec<Vec<Picture>>], folder: &Path
         renders[i][0] = read(&path(check), stage::SIDE as usize)?;
     }
     Ok(())
+}
+
+/// Mitsuba's first of a check, of 32 bits.
+fn first_seed(check: &Check) -> u32 {
+    (console::seed(check, Renderer::Mitsuba, 0) % (1 << 31)) as u32
 }
 
 /// Pictures of 32-bit numbers, X, Y and Z of each pixel in units of the luminance of even radiance.
