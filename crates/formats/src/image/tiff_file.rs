@@ -63,7 +63,7 @@ pub(super) fn decode(file: &[u8], most_bytes: u64) -> Result<Image, FormatError>
     let held = layout.complete_len as u64;
     // The decoder keeps a row of a strip or tile besides, with all samples: a file has at least one.
     let row = form.encoded_row(decoder.chunk_dimensions().0);
-    if held.saturating_add(row) > form.growth.saturating_mul(file.len() as u64) {
+    if held.max(row) > form.growth.saturating_mul(file.len() as u64) {
         return Err(cut_off());
     }
     let copies = texels.saturating_mul(form.copied_bytes(layout.planes));
