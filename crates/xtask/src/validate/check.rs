@@ -135,7 +135,7 @@ pub struct Check {
     pub rows: Vec<Row>,
     /// A deviation of this share of the value must be seen, or the check fails for its noise.
     pub resolution: f64,
-    /// Whether every pixel must have the value of the first row.
+    /// Whether every pixel should have the value of the first row: the report then draws how far each is from it.
     pub is_flat: bool,
     /// Rendered in the full run only.
     pub full_only: bool,
