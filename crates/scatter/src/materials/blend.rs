@@ -1,8 +1,9 @@
 //! `blend`: two materials at once.
 //!
-//! A tree of blends is walked down at each point, by one random number that is spread out again after each
-//! choice: what is left is the constituent with the probability of its share. A blend is linear in its
-//! constituents, so that has the right mean.
+//! A tree of blends is walked down at each point, by one random [`Choice`] after another: what is left is a
+//! constituent with the probability of its share. A blend is linear in its constituents, so that has the right mean.
+
+mod choice;
 
 use super::{Material, MaterialContext, MaterialId, MaterialResources};
 use crate::media::MediumId;
@@ -12,11 +13,13 @@ use indigo_math::{Float, Real, Vec2};
 use indigo_texture::TextureId;
 use indigo_texture::declare::TEXTURE;
 
+pub(super) use self::choice::Choice;
+
 /// The declaration of `blend`.
 pub static BLOCK: Block = Block::new(
     "blend",
-    "Two materials at once, weighted by a number or by an image map. Blends may be made of blends, but \
-     at most one material in the whole tree may be `specular` or `null_material`.",
+    "Two materials at once, weighted by a number or by an image map. Blends may be made of blends to any depth, \
+     but at most one material in the whole tree may be `specular` or `null_material`.",
     &[
         Field::new(
             "blend_factor",
@@ -60,9 +63,6 @@ pub static BLOCK: Block = Block::new(
 </blend>",
 );
 
-/// How deeply blends may be nested: far beyond what anyone draws, and what a thread's stack holds.
-pub const MAX_DEPTH: u32 = 200;
-
 /// How many constituents of a blend may let light pass as if nothing were there, each counted as often as it is part
 /// of the tree: every ray that looks through the surface asks all of them.
 pub const MAX_UNSEEN: u32 = 1024;
@@ -97,13 +97,10 @@ struct Facts {
     /// Whether one of them is nothing at all, between whatever media.
     holds_nothing: bool,
     may_transmit: bool,
-    /// Blends on the longest way down.
-    depth: u32,
 }
 
 impl Facts {
-    const NONE: Self =
-        Self { deltas: 0, medium: None, unseen: 0, holds_nothing: false, may_transmit: false, depth: 0 };
+    const NONE: Self = Self { deltas: 0, medium: None, unseen: 0, holds_nothing: false, may_transmit: false };
 
     fn of(material: &Material) -> Self {
         match material {
@@ -111,10 +108,9 @@ impl Facts {
             other => Self {
                 deltas: u32::from(matches!(other, Material::Null | Material::Specular(_))),
                 medium: other.internal_medium(),
-                unseen: u32::from(other.may_be_unseen()),
+                unseen: other.unseen_constituents(),
                 holds_nothing: other.is_invisible(),
                 may_transmit: other.may_transmit(),
-                depth: 0,
             },
         }
     }
@@ -127,7 +123,6 @@ impl Facts {
             unseen: self.unseen + other.unseen,
             holds_nothing: self.holds_nothing || other.holds_nothing,
             may_transmit: self.may_transmit || other.may_transmit,
-            depth: 1 + self.depth.max(other.depth),
         };
         if facts.deltas > 1 {
             return Err([
@@ -140,9 +135,6 @@ impl Facts {
                 "the materials of this blend have different internal media",
                 "one and the same, or none",
             ]);
-        }
-        if facts.depth > MAX_DEPTH {
-            return Err(["blends are nested more than 200 deep", "a tree that is not so deep"]);
         }
         if facts.unseen > MAX_UNSEEN {
             return Err([
@@ -198,22 +190,15 @@ impl Blend {
         }
     }
 
-    /// One of the two materials, with what the choice between them leaves of `choice` in [0, 1).
+    /// One of the two materials.
     #[inline]
     pub(super) fn choose(
         &self,
         context: &MaterialContext,
         uv: &impl Fn(u32) -> Vec2,
-        choice: Real,
-    ) -> (MaterialId, Real) {
-        let share = self.share(context, uv);
-        // Rounding must not make a 1 of it, which would choose what has no share.
-        let most = 1.0 - Real::EPSILON;
-        if choice < share {
-            (self.b, (choice / share).min(most))
-        } else {
-            (self.a, ((choice - share) / (1.0 - share)).min(most))
-        }
+        choice: &mut Choice,
+    ) -> MaterialId {
+        if choice.is_within(self.share(context, uv)) { self.b } else { self.a }
     }
 
     /// See [`SurfaceKind::internal_medium`](super::SurfaceKind::internal_medium): that of the constituent that has one.
@@ -222,9 +207,9 @@ impl Blend {
         self.facts.medium
     }
 
-    /// See [`Material::may_be_unseen`].
-    pub(super) fn may_be_unseen(&self) -> bool {
-        self.facts.unseen > 0
+    /// See [`Material::unseen_constituents`].
+    pub(super) fn unseen_constituents(&self) -> u32 {
+        self.facts.unseen
     }
 
     /// See [`SurfaceKind::may_transmit`](super::SurfaceKind::may_transmit).
@@ -233,15 +218,32 @@ impl Blend {
     }
 
     /// See [`Material::unseen_share`].
+    ///
+    /// It goes down the way of the most constituents that may be unseen, and calls itself for the other one, so that it
+    /// stands in itself at most ten times, the logarithm of [`MAX_UNSEEN`]: a chain may be longer than a thread's stack.
     pub(super) fn unseen_share(&self, context: &MaterialContext, uv: &impl Fn(u32) -> Vec2) -> Real {
         // All but nothing itself are seen between different indices.
         let may_be_unseen = self.facts.holds_nothing || context.interface.is_matched();
         if self.facts.unseen == 0 || !may_be_unseen {
             return 0.0;
         }
-        let share = self.share(context, uv);
-        let of = |id: MaterialId| context.materials[id as usize].unseen_share(context, uv);
-        (1.0 - share) * of(self.a) + share * of(self.b)
+        let (mut blend, mut weight, mut sum) = (self, 1.0, 0.0);
+        loop {
+            let share = blend.share(context, uv);
+            let of = |id: MaterialId, share: Real| (&context.materials[id as usize], share);
+            let (mut most, mut fewest) = (of(blend.a, 1.0 - share), of(blend.b, share));
+            if fewest.0.unseen_constituents() > most.0.unseen_constituents() {
+                std::mem::swap(&mut most, &mut fewest);
+            }
+            if fewest.0.may_be_unseen() {
+                sum += weight * fewest.1 * fewest.0.unseen_share(context, uv);
+            }
+            weight *= most.1;
+            match most.0 {
+                Material::Blend(below) => blend = below,
+                other => return sum + weight * other.unseen_share(context, uv),
+            }
+        }
     }
 }
 
@@ -286,5 +288,36 @@ mod tests {
             assert!((share - nothing).abs() < 2.0 / n as Real, "{outer}, {inner}: {share}");
             assert!((materials[3].unseen_share(&at(0.0), &uv) - nothing).abs() < 1e-6);
         }
+    }
+
+    /// Blends go deeper than a thread's stack. A quarter of the last one is nothing, and half of the first one is the
+    /// chain that leads there.
+    #[test]
+    fn a_chain_has_no_end_that_a_stack_has() {
+        let mut materials = vec![Material::black(), Material::Null];
+        let mut push = |share: Real, a: MaterialId, b: MaterialId| {
+            let [of_a, of_b] = [a, b].map(|id| Facts::of(&materials[id as usize]));
+            let facts = of_a.together(of_b).expect("a sound blend");
+            materials.push(Material::Blend(Blend { share: Share::Constant(share), a, b, facts }));
+            (materials.len() - 1) as MaterialId
+        };
+        let mut chain = push(0.25, 0, 1);
+        for i in 0..100_000 {
+            chain = if i % 2 == 0 { push(0.0, chain, 0) } else { push(1.0, 0, chain) };
+        }
+        chain = push(0.5, 0, chain);
+        let uv = |_| Vec2::new(0.0, 0.0);
+        let lambda = SampledWavelengths::sample(0.5);
+        let at = |choice| MaterialContext {
+            textures: &[],
+            materials: &materials,
+            lambda: &lambda,
+            interface: Interface::NONE,
+            choice,
+        };
+        let chain = &materials[chain as usize];
+        assert_eq!(chain.unseen_share(&at(0.0), &uv), 0.125);
+        assert!(chain.chosen(&at(0.1), &uv).is_invisible());
+        assert!(!chain.chosen(&at(0.2), &uv).is_invisible());
     }
 }

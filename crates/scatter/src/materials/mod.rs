@@ -198,10 +198,9 @@ macro_rules! registry {
             /// What a blend is at a point by the context's choice: a material that is not a blend.
             #[inline]
             pub fn chosen<'a>(&'a self, context: &MaterialContext<'a>, uv: &impl Fn(u32) -> Vec2) -> &'a Self {
-                let (mut material, mut choice) = (self, context.choice);
+                let (mut material, mut choice) = (self, blend::Choice::new(context.choice));
                 while let Self::Blend(blend) = material {
-                    let (id, rest) = blend.choose(context, uv, choice);
-                    (material, choice) = (&context.materials[id as usize], rest);
+                    material = &context.materials[blend.choose(context, uv, &mut choice) as usize];
                 }
                 material
             }
@@ -244,13 +243,13 @@ macro_rules! registry {
                 }
             }
 
-            /// Whether light can ever pass as if nothing were there: there is no leaf, or the surface divides a
-            /// medium from itself.
-            pub fn may_be_unseen(&self) -> bool {
+            /// How many of the materials that it is made of can ever let light pass as if nothing were there, each as
+            /// often as it is part of it: there is no leaf, or the surface divides a medium from itself.
+            pub fn unseen_constituents(&self) -> u32 {
                 match self {
-                    Self::Null => true,
-                    Self::Blend(blend) => blend.may_be_unseen(),
-                    $(Self::$material(m) => m.kind.internal_medium().is_some(),)*
+                    Self::Null => 1,
+                    Self::Blend(blend) => blend.unseen_constituents(),
+                    $(Self::$material(m) => u32::from(m.kind.internal_medium().is_some()),)*
                 }
             }
 
@@ -351,6 +350,12 @@ impl Material {
     /// A diffuse surface in a colour that is seen at a glance.
     pub fn magenta() -> Self {
         Self::Diffuse(Surface { kind: diffuse::Diffuse::magenta(), bump: None })
+    }
+
+    /// Whether light can ever pass as if nothing were there.
+    #[inline]
+    pub fn may_be_unseen(&self) -> bool {
+        self.unseen_constituents() > 0
     }
 
     /// Whether light passes as if the surface were not there.

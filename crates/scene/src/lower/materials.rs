@@ -1,4 +1,7 @@
 //! Materials by name, built when they are first used with a mesh's texture coordinates.
+//!
+//! What a blend is made of is built before it, however deep that goes: a chain of blends may be longer than a thread's
+//! stack.
 
 mod resources;
 mod rounds;
@@ -12,7 +15,6 @@ use crate::codes;
 use crate::settings::Settings;
 use indigo_decl::Node;
 use indigo_diag::{Diagnostic, Sink, Span, Spanned};
-use indigo_scatter::materials::blend;
 use indigo_scatter::{Material, MaterialId, MaterialResources, Medium, MediumId};
 use indigo_spectrum::Spectrum;
 use indigo_texture::Texture;
@@ -45,10 +47,6 @@ pub(super) struct MaterialTable<'a> {
     plain: HashMap<String, MaterialId>,
     /// Names that anything in the scene uses.
     asked_for: HashSet<String>,
-    /// Blends whose constituents are being built, from the outermost in.
-    open: Vec<String>,
-    /// Materials of which all that is below was looked at, since it goes too deep.
-    walked: HashSet<String>,
     black: Option<MaterialId>,
     stand_in: Option<MaterialId>,
     layers: Layers,
@@ -69,8 +67,6 @@ impl<'a> MaterialTable<'a> {
             textured: HashMap::new(),
             plain: HashMap::new(),
             asked_for: HashSet::new(),
-            open: vec![],
-            walked: HashSet::new(),
             black: None,
             stand_in: None,
         }
@@ -79,30 +75,32 @@ impl<'a> MaterialTable<'a> {
     /// The number of a material by name on a surface with certain uv sets. What is wrong is reported,
     /// and the number of some material returned all the same.
     pub(super) fn get(&mut self, name: &str, span: Span, uv: UvSets, context: &mut Context) -> MaterialId {
-        let name = &*self.names.meant(name).to_owned();
-        if let Some(&known) = self.plain.get(name) {
+        let name = self.names.meant(name).to_owned();
+        if let Some(known) = self.known(&name, uv) {
             return known;
         }
-        let sets = match uv {
-            UvSets::Named(sets) => Some(sets.to_vec()),
-            UvSets::Natural => None,
-        };
-        let key = (name.to_owned(), sets);
-        if let Some(&known) = self.textured.get(&key) {
-            return known;
+        let named = Spanned::new(name, span);
+        for part in self.unknown_parts(&named, uv, context.sink) {
+            self.build(&part, span, uv, context);
         }
-        self.asked_for.insert(name.to_owned());
-        let node = self.names.find(name, span, context.sink);
-        let may_open = self.may_open(name, node, span, context.sink);
+        self.build(&named, span, uv, context)
+    }
+
+    /// The number of a material that was built before.
+    fn known(&self, name: &str, uv: UvSets) -> Option<MaterialId> {
+        self.plain.get(name).or_else(|| self.textured.get(&key(name, uv))).copied()
+    }
+
+    /// Builds a material of parts that are known, for who uses it.
+    fn build(&mut self, name: &Spanned<String>, user: Span, uv: UvSets, context: &mut Context) -> MaterialId {
+        self.asked_for.insert(name.value.clone());
+        let node = self.names.find(&name.value, name.span, context.sink);
         // Without a kind it is incomplete, or of one that grey stands in for; either was reported.
-        let Some(kind) = node.and_then(Node::alternative).filter(|_| may_open) else {
+        let Some(kind) = node.and_then(Node::alternative) else {
             // Reported as what it is, not as unread.
             node.into_iter().for_each(Node::disregard);
-            let grey = self.add(Material::grey(), name);
-            self.plain.insert(name.to_owned(), grey);
-            return grey;
+            return self.add_grey(&name.value);
         };
-        self.open.push(name.to_owned());
         // What it emits is the lamps' business.
         emission::disregard(kind);
         let (id, uses_textures) = if let Some(other) = stand_in(kind) {
@@ -111,18 +109,24 @@ impl<'a> MaterialTable<'a> {
             (id, !self.plain.contains_key(self.names.meant(&other.value)))
         } else {
             report_stand_in_of_kind(kind, context.sink);
-            let mut resources = Resources { table: self, context, uv, user: span, uses_textures: false };
+            let mut resources = Resources { table: self, context, uv, user, uses_textures: false };
             let material = Material::build(kind, &mut resources);
             let uses_textures = resources.uses_textures;
-            (self.add(material, name), uses_textures)
+            (self.add(material, &name.value), uses_textures)
         };
-        self.open.pop();
         if uses_textures {
-            self.textured.insert(key, id);
+            self.textured.insert(key(&name.value, uv), id);
         } else {
-            self.plain.insert(key.0, id);
+            self.plain.insert(name.value.clone(), id);
         }
         id
+    }
+
+    /// What takes the place of a material that cannot be built.
+    fn add_grey(&mut self, name: &str) -> MaterialId {
+        let grey = self.add(Material::grey(), name);
+        self.plain.insert(name.to_owned(), grey);
+        grey
     }
 
     /// What a material emits, or what stands in for it; `None` where it emits nothing.
@@ -144,9 +148,12 @@ impl<'a> MaterialTable<'a> {
     /// The kind of a material, or of the one that stands in for it.
     fn kind_that_counts(&self, name: &str) -> Option<&'a Node> {
         let mut kind = self.names.get(name)?.alternative()?;
-        // Materials that lead back to themselves are reported elsewhere.
-        for _ in 0..blend::MAX_DEPTH {
-            let Some(other) = stand_in(kind) else { break };
+        let mut seen = HashSet::new();
+        while let Some(other) = stand_in(kind) {
+            // Materials that lead back to themselves are reported elsewhere.
+            if !seen.insert(self.names.meant(&other.value).to_owned()) {
+                break;
+            }
             kind = self.names.get(&other.value)?.alternative()?;
         }
         Some(kind)
@@ -238,6 +245,15 @@ impl<'a> MaterialTable<'a> {
         }
         (materials, self.textures.into_arena(), media)
     }
+}
+
+/// What a material with textures is known by.
+fn key(name: &str, uv: UvSets) -> Key {
+    let sets = match uv {
+        UvSets::Named(sets) => Some(sets.to_vec()),
+        UvSets::Natural => None,
+    };
+    (name.to_owned(), sets)
 }
 
 /// The material that stands in for a kind which is not rendered as it is meant.

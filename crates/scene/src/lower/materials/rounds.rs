@@ -1,44 +1,31 @@
-//! Materials that lead back to themselves, or go too deep.
+//! The order in which materials are built, and materials that lead back to themselves.
 
-use super::MaterialTable;
+use super::{MaterialTable, UvSets, stand_in};
 use crate::codes;
 use indigo_decl::{Kind, Node};
 use indigo_diag::{Diagnostic, Sink, Span, Spanned};
-use indigo_scatter::materials::blend;
 use std::collections::{HashMap, HashSet};
 
 /// So many names of a round are told at its beginning, and at its end.
 const NAMES_TOLD: usize = 3;
 
 impl MaterialTable<'_> {
-    /// Whether a material may be begun: not within itself, nor too deep in others.
-    pub(super) fn may_open(&mut self, name: &str, node: Option<&Node>, span: Span, sink: &mut Sink) -> bool {
-        if let Some(first) = self.open.iter().position(|open| open == name) {
-            sink.push(made_of_itself(name, span, self.open[first..].iter().map(String::as_str)));
-            return false;
+    /// What a material is made of that is not known yet, each after what it is made of itself. Of those that lead back to
+    /// themselves this is reported, and from then on grey is known for them.
+    pub(super) fn unknown_parts(
+        &mut self,
+        name: &Spanned<String>,
+        uv: UvSets,
+        sink: &mut Sink,
+    ) -> Vec<Spanned<String>> {
+        let mut begun = HashSet::new();
+        let mut walk =
+            self.walk(name, |name| self.known(name, uv).is_none() && begun.insert(name.to_owned()), sink);
+        for name in &walk.leading_back {
+            self.add_grey(name);
         }
-        let is_deep = self.open.len() >= blend::MAX_DEPTH as usize;
-        if is_deep && node.is_some_and(|node| !constituents(node).is_empty()) {
-            self.report_depth(name, span, sink);
-            return false;
-        }
-        true
-    }
-
-    /// What goes too deep may have no end at all. What has been walked through for another one was reported with that.
-    fn report_depth(&mut self, name: &str, span: Span, sink: &mut Sink) {
-        if self.walked.contains(name) {
-            return;
-        }
-        let errors = sink.error_count();
-        let mut walked = std::mem::take(&mut self.walked);
-        self.check_round(name, &mut walked, sink);
-        self.walked = walked;
-        if sink.error_count() == errors {
-            let message = format!("blends are nested more than {} deep", blend::MAX_DEPTH);
-            let error = Diagnostic::error(codes::BLEND_CYCLE, span, message);
-            sink.push(error.expected("expected a tree of blends that is not so deep"));
-        }
+        walk.order.pop();
+        walk.order
     }
 
     /// Reports materials that nothing uses and that are made of themselves. Those in use were found when built.
@@ -47,49 +34,65 @@ impl MaterialTable<'_> {
         let mut nodes: Vec<&Node> = self.names.nodes().collect();
         nodes.sort_by_key(|n| (n.span.source, n.span.start));
         for node in nodes {
-            self.check_round(&node.text("name").value, &mut done, sink);
+            self.walk(&node.text("name"), |name| done.insert(name.to_owned()), sink);
         }
     }
 
-    /// Walks down what a material is made of, each material once, and reports the names that lead back up.
-    fn check_round(&self, first: &str, done: &mut HashSet<String>, sink: &mut Sink) {
-        // The materials above with their places, and what is left to be looked at of each. A list of our own: a chain of blends can
-        // be longer than the thread's stack.
-        let mut open: Vec<(String, Vec<Spanned<String>>)> = vec![];
+    /// Walks down what a material is made of, as far as `begins` says, and reports the names that lead back up.
+    fn walk(&self, first: &Spanned<String>, mut begins: impl FnMut(&str) -> bool, sink: &mut Sink) -> Walk {
+        // The materials above with their places, and what is left to be looked at of each. A list of our own: a chain of
+        // blends can be longer than the thread's stack.
+        let mut open: Vec<(Spanned<String>, Vec<Spanned<String>>)> = vec![];
         let mut above: HashMap<String, usize> = HashMap::new();
-        let mut next = Some(first.to_owned());
+        let mut walk = Walk::default();
+        let mut next = Some(first.clone());
         loop {
             if let Some(name) = next.take()
-                && done.insert(name.clone())
+                && begins(&name.value)
             {
-                let mut parts = self.names.get(&name).map(constituents).unwrap_or_default();
+                let mut parts = self.names.get(&name.value).map(constituents).unwrap_or_default();
+                parts.reverse();
                 for part in &mut parts {
                     part.value = self.names.meant(&part.value).to_owned();
                 }
-                above.insert(name.clone(), open.len());
+                above.insert(name.value.clone(), open.len());
                 open.push((name, parts));
             }
-            let Some((name, parts)) = open.last_mut() else { return };
-            match parts.pop() {
-                None => {
-                    above.remove(name.as_str());
-                    open.pop();
+            let Some((_, parts)) = open.last_mut() else { return walk };
+            let Some(part) = parts.pop() else {
+                if let Some((done, _)) = open.pop() {
+                    above.remove(&done.value);
+                    walk.order.push(done);
                 }
-                Some(part) => match above.get(&part.value) {
-                    Some(first) => {
-                        let round = open[*first..].iter().map(|(name, _)| name.as_str());
-                        sink.push(made_of_itself(&part.value, part.span, round));
-                    }
-                    None => next = Some(part.value),
-                },
+                continue;
+            };
+            match above.get(&part.value) {
+                Some(first) => {
+                    let round = open[*first..].iter().map(|(name, _)| name.value.as_str());
+                    sink.push(made_of_itself(&part.value, part.span, round));
+                    walk.leading_back.push(part.value);
+                }
+                None => next = Some(part),
             }
         }
     }
 }
 
-/// The materials that a material is made of.
+/// What a walk down a material found.
+#[derive(Default)]
+struct Walk {
+    /// Materials, each after those that it is made of.
+    order: Vec<Spanned<String>>,
+    /// Materials that lead back to themselves.
+    leading_back: Vec<String>,
+}
+
+/// The materials that a material is made of, or the one that stands in for it.
 fn constituents(node: &Node) -> Vec<Spanned<String>> {
     let Some(kind) = node.alternative() else { return vec![] };
+    if let Some(other) = stand_in(kind) {
+        return vec![other];
+    }
     let parts = kind.block.fields.iter().filter(|f| matches!(f.kind, Kind::Reference("material")));
     parts.filter_map(|f| kind.opt_text(f.name)).collect()
 }
