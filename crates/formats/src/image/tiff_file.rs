@@ -7,7 +7,7 @@ use std::ops::RangeInclusive;
 
 use ::tiff::TiffError;
 use ::tiff::decoder::{ChunkType, Decoder, DecodingResult, Limits};
-use ::tiff::tags::Tag;
+use ::tiff::tags::{IfdPointer, Tag};
 
 use super::{ALPHA, Image, Pixels, check_memory, check_sides, colours_of, decoder_error};
 use crate::error::{FormatError, Position};
@@ -24,10 +24,20 @@ const FLOAT: u16 = 3;
 const COMPRESSIONS: [(u16, u64); 5] = [(1, 1), (5, 4096), (8, 1032), (0x80B2, 1032), (0x8005, 64)];
 /// Values of `ExtraSamples` that are alphas: of colours that it is multiplied into, and of others.
 const ALPHAS: RangeInclusive<u16> = 1..=2;
+/// Values of `Orientation` of which the first row of the file is not the top one or does not begin on the left.
+const TURNED: RangeInclusive<u16> = 2..=8;
+/// Bits of `NewSubfileType`: what is told of another page at another resolution, or masks it.
+const REDUCED: u32 = 1;
+const MASK: u32 = 4;
+/// A mip map of the widest picture has 15 further pages, and masks may go with each: a longer chain, or one that loops, is not
+/// followed to its end.
+const MOST_PAGES: usize = 64;
 
 const EXPECTED: &str = "a TIFF in grey or red, green and blue, of unsigned samples of 1, 2, 4 (grey), 8 or 16 bits or \
                         floating-point ones of 16 or 32, not compressed or by LZW, Deflate or PackBits";
 const PAGES: &str = "it has more than one page, of which the first is taken";
+const ORIENTATION: &str =
+    "it is to be turned or mirrored by its tag Orientation, and is taken as its rows are stored";
 const FURTHER_SAMPLES: &str =
     "it has samples beside those of its colour that are no alpha, and they are dropped";
 
@@ -71,7 +81,8 @@ pub(super) fn decode(file: &[u8], most_bytes: u64) -> Result<Image, FormatError>
 
     let mut limits = Limits::unlimited();
     limits.decoding_buffer_size = usize::try_from(held).unwrap_or(usize::MAX);
-    let is_paged = decoder.more_images();
+    let is_turned = TURNED.contains(&first(&mut decoder, Tag::Orientation, 1)?);
+    let is_paged = has_other_pages(&mut decoder);
     let mut decoder = decoder.with_limits(limits);
     let mut samples = DecodingResult::U8(vec![]);
     decoder.read_image_to_buffer(&mut samples).map_err(complaint)?;
@@ -89,7 +100,12 @@ pub(super) fn decode(file: &[u8], most_bytes: u64) -> Result<Image, FormatError>
         }
         _ => return Err(refused("samples of another kind")),
     };
-    let notes = [(is_paged, PAGES), (!is_opaque, ALPHA), (form.has_further, FURTHER_SAMPLES)];
+    let notes = [
+        (is_paged, PAGES),
+        (is_turned, ORIENTATION),
+        (!is_opaque, ALPHA),
+        (form.has_further, FURTHER_SAMPLES),
+    ];
     let notes = notes.into_iter().filter(|(is_so, _)| *is_so).map(|(_, note)| note).collect();
     Ok(Image { width, height, channels: form.channels as u8, pixels, primaries: None, notes })
 }
@@ -98,6 +114,35 @@ pub(super) fn decode(file: &[u8], most_bytes: u64) -> Result<Image, FormatError>
 fn stated(decoder: &mut Decoder<Cursor<&[u8]>>, tag: Tag, default: u16) -> Result<Vec<u16>, FormatError> {
     let values = decoder.find_tag_unsigned_vec::<u16>(tag).map_err(complaint)?;
     Ok(values.filter(|values| !values.is_empty()).unwrap_or_else(|| vec![default]))
+}
+
+/// The first, or only, of these values.
+fn first(decoder: &mut Decoder<Cursor<&[u8]>>, tag: Tag, default: u16) -> Result<u16, FormatError> {
+    stated(decoder, tag, default).map(|values| values.first().copied().unwrap_or(default))
+}
+
+/// Whether a file has pages behind the first that are pictures of their own: neither the first in fewer texels, as mip maps
+/// are kept, nor masks. What cannot be read is taken for one.
+fn has_other_pages(decoder: &mut Decoder<Cursor<&[u8]>>) -> bool {
+    let mut next = decoder.image_ifd().directory().next();
+    for _ in 0..MOST_PAGES {
+        let Some(page) = next else { return false };
+        match page_behind(decoder, page) {
+            Ok((kind, following)) if kind & (REDUCED | MASK) != 0 => next = following,
+            _ => return true,
+        }
+    }
+    next.is_some()
+}
+
+/// What a page tells that it is, and where the one behind it is.
+fn page_behind(
+    decoder: &mut Decoder<Cursor<&[u8]>>,
+    page: IfdPointer,
+) -> Result<(u32, Option<IfdPointer>), TiffError> {
+    let directory = decoder.read_directory(page)?;
+    let kind = decoder.read_directory_tags(&directory).find_tag_unsigned(Tag::NewSubfileType)?;
+    Ok((kind.unwrap_or_default(), directory.next()))
 }
 
 /// How samples lie in what is decoded.
@@ -110,10 +155,9 @@ struct Shape {
 
 impl Form {
     fn read(decoder: &mut Decoder<Cursor<&[u8]>>) -> Result<Self, FormatError> {
-        let mut one = |tag: Tag, default: u16| {
-            stated(decoder, tag, default).map(|values| values.first().copied().unwrap_or(default))
-        };
-        let kind = one(Tag::PhotometricInterpretation, BLACK_IS_ZERO)?;
+        // Of what has no such tag the decoder does not know what it is, and says so before.
+        let kind = decoder.get_tag_unsigned(Tag::PhotometricInterpretation).map_err(complaint)?;
+        let mut one = |tag: Tag, default: u16| first(decoder, tag, default);
         let samples = one(Tag::SamplesPerPixel, 1)?;
         let compression = one(Tag::Compression, 1)?;
         let predictor = one(Tag::Predictor, 1)?;
@@ -241,14 +285,14 @@ fn unpacked(bytes: &[u8], bits: u16, shape: &Shape) -> Vec<u8> {
     shades
 }
 
-fn name_of(kind: u16) -> String {
+/// The kinds of colour that the decoder knows, and this does not read.
+fn name_of(kind: u16) -> &'static str {
     match kind {
-        3 => "colours from a palette".to_owned(),
-        4 => "a mask".to_owned(),
-        5 => "inks (CMYK)".to_owned(),
-        6 => "luminance and differences of colour (YCbCr)".to_owned(),
-        8..=10 => "colours of L*a*b*".to_owned(),
-        other => format!("colours of kind {other}"),
+        3 => "colours from a palette",
+        4 => "a mask",
+        5 => "inks (CMYK)",
+        6 => "luminance and differences of colour (YCbCr)",
+        _ => "colours of L*a*b*",
     }
 }
 

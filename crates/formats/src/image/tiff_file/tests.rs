@@ -8,6 +8,11 @@ use ::tiff::tags::ExtraSamples;
 use super::*;
 use crate::image::decode as decode_any;
 
+mod by_hand;
+mod forms;
+
+use by_hand::{Container, Page};
+
 const WIDTH: u32 = 2;
 const HEIGHT: u32 = 3;
 const TEXELS: u32 = WIDTH * HEIGHT;
@@ -200,34 +205,54 @@ fn halves_become_floats() {
 
 #[test]
 fn the_first_of_several_pages_counts_and_that_is_told() {
-    let mut bytes = Cursor::new(Vec::new());
-    let mut encoder = TiffEncoder::new(&mut bytes).unwrap();
-    encoder.write_image::<Gray8>(WIDTH, HEIGHT, &samples(1)).unwrap();
-    encoder.write_image::<Gray8>(1, 1, &[200]).unwrap();
-    let image = read(bytes.get_ref());
-    assert_eq!((image.pixels, image.notes), (Pixels::U8(samples(1)), vec![PAGES]));
+    let page = |kind: u32| Page::new(WIDTH, HEIGHT, 1).tag(Tag::NewSubfileType, kind).chunk(&samples(1));
+    // Nothing special, a mip map, one page of many, a mask, and a mask of a mip map.
+    let [picture, reduced, one_of_many, mask, both] = [0, 1, 2, 4, 5].map(page);
+    let unmarked = picture.clone().without(Tag::NewSubfileType);
+    for (further, notes) in [
+        (vec![], vec![]),
+        (vec![unmarked], vec![PAGES]),
+        (vec![picture.clone()], vec![PAGES]),
+        (vec![one_of_many], vec![PAGES]),
+        (vec![reduced.clone(), mask, both], vec![]),
+        (vec![reduced.clone(), picture.clone()], vec![PAGES]),
+        (vec![reduced.clone(); MOST_PAGES], vec![]),
+        (vec![reduced.clone(); MOST_PAGES + 1], vec![PAGES]),
+    ] {
+        for is_big in [false, true] {
+            let container = Container { is_big, ..Container::default() };
+            let pages: Vec<Page> = [&picture].into_iter().chain(&further).cloned().collect();
+            let file = container.file(&pages);
+            let image = read(&file);
+            assert_eq!((image.pixels, &image.notes), (Pixels::U8(samples(1)), &notes), "{}", further.len());
+        }
+    }
 }
 
-/// Planes: all of one channel before the next. Nobody's encoder writes them, so the tags are written by hand.
+/// The last page says that the first, itself or one beyond the end follows.
+#[test]
+fn a_chain_of_pages_may_loop_or_lead_nowhere() {
+    let page = |kind: u32| Page::new(WIDTH, HEIGHT, 1).tag(Tag::NewSubfileType, kind).chunk(&samples(1));
+    let file = Container::default().file(&[page(1), page(1)]);
+    let start = |link: &[u8]| u32::from_le_bytes(link.try_into().unwrap());
+    let first = start(&file[4..8]);
+    let link = first as usize + 2 + 12 * usize::from(file[first as usize]);
+    let second = start(&file[link..link + 4]);
+    for next in [first, second, u32::MAX] {
+        let mut file = file.clone();
+        let end = file.len() - 4;
+        file[end..].copy_from_slice(&next.to_le_bytes());
+        let image = read(&file);
+        assert_eq!((image.pixels, image.notes), (Pixels::U8(samples(1)), vec![PAGES]));
+    }
+}
+
+/// Planes: all of one channel before the next, with an alpha behind them.
 #[test]
 fn planes_are_brought_together() {
-    let planes: Vec<u8> = (0..4).flat_map(|c| samples(4).into_iter().skip(c).step_by(4)).collect();
-    let mut bytes = Cursor::new(Vec::new());
-    let mut encoder = TiffEncoder::new(&mut bytes).unwrap();
-    let mut page = encoder.image_directory().unwrap();
-    let starts: Vec<u32> =
-        planes.chunks(TEXELS as usize).map(|plane| page.write_data(plane).unwrap() as u32).collect();
-    page.write_tag(Tag::ImageWidth, WIDTH).unwrap();
-    page.write_tag(Tag::ImageLength, HEIGHT).unwrap();
-    page.write_tag(Tag::BitsPerSample, &[8_u16; 4][..]).unwrap();
-    page.write_tag(Tag::SamplesPerPixel, 4_u16).unwrap();
-    page.write_tag(Tag::PhotometricInterpretation, RGB).unwrap();
-    page.write_tag(Tag::ExtraSamples, 2_u16).unwrap();
-    page.write_tag(Tag::PlanarConfiguration, 2_u16).unwrap();
-    page.write_tag(Tag::StripOffsets, &starts[..]).unwrap();
-    page.write_tag(Tag::StripByteCounts, &[TEXELS; 4][..]).unwrap();
-    page.finish().unwrap();
-    let image = read(bytes.get_ref());
+    let page = Page::new(WIDTH, HEIGHT, 4).tag(Tag::ExtraSamples, 2).tag(Tag::PlanarConfiguration, 2);
+    let planes = (0..4).map(|c| samples(4).into_iter().skip(c).step_by(4).collect::<Vec<_>>());
+    let image = read(&planes.fold(page, |page, plane| page.chunk(&plane)).file());
     let colours = samples(4).chunks(4).flat_map(|texel| texel[..3].to_vec()).collect();
     assert_eq!((image.pixels, image.notes), (Pixels::U8(colours), vec![ALPHA]));
 }
@@ -283,47 +308,10 @@ fn what_is_cut_off_or_too_large_is_refused() {
     }
 }
 
-/// A file of one page by its tags, of a number each, and the offset of its data under `data_tag`.
-fn by_tags(tags: &[(Tag, u32)], data_tag: Tag, data: &[u8]) -> Vec<u8> {
-    let mut tags: Vec<(u16, u32)> = tags.iter().map(|(tag, value)| (tag.to_u16(), *value)).collect();
-    let offset = 8 + 2 + 12 * (tags.len() + 1) + 4;
-    tags.push((data_tag.to_u16(), offset as u32));
-    tags.sort_unstable();
-    let mut file = b"II*\0\x08\0\0\0".to_vec();
-    file.extend((tags.len() as u16).to_le_bytes());
-    for (tag, value) in tags {
-        file.extend(tag.to_le_bytes());
-        // One number, of 16 bits where that is enough, or of 32.
-        file.extend([if value > 0xFFFF { 4 } else { 3 }, 0, 1, 0, 0, 0]);
-        file.extend(value.to_le_bytes());
-    }
-    file.extend([0; 4]);
-    file.extend(data);
-    file
-}
-
-/// Tags of a picture of `WIDTH` by `HEIGHT` texels in tiles of 16 by 16.
-fn tiled(samples: u32, more: &[(Tag, u32)]) -> Vec<(Tag, u32)> {
-    let kind = if samples < 3 { BLACK_IS_ZERO } else { RGB };
-    let tags = [
-        (Tag::ImageWidth, WIDTH),
-        (Tag::ImageLength, HEIGHT),
-        (Tag::BitsPerSample, 8),
-        (Tag::Compression, 1),
-        (Tag::PhotometricInterpretation, kind.into()),
-        (Tag::SamplesPerPixel, samples),
-        (Tag::TileWidth, 16),
-        (Tag::TileLength, 16),
-        (Tag::TileByteCounts, 256 * samples),
-    ];
-    let is_other = |(tag, _): &&(Tag, u32)| more.iter().all(|(other, _)| other != tag);
-    tags.iter().filter(is_other).chain(more).copied().collect()
-}
-
 #[test]
 fn tiles_are_cut_to_the_picture() {
     let data: Vec<u8> = (0..256).flat_map(|i| [i as u8, 7, 9]).collect();
-    let image = read(&by_tags(&tiled(3, &[]), Tag::TileOffsets, &data));
+    let image = read(&Page::new(WIDTH, HEIGHT, 3).tiled(16).chunk(&data).file());
     let expected = [0, 1, 16, 17, 32, 33].map(|i| [i, 7, 9]).concat();
     assert_eq!(image.pixels, Pixels::U8(expected));
 }
@@ -332,8 +320,8 @@ fn tiles_are_cut_to_the_picture() {
 #[test]
 fn tiles_with_further_samples_are_refused() {
     for samples in [4, 5] {
-        let tags = tiled(samples, &[(Tag::ExtraSamples, 0)]);
-        let error = refusal(&by_tags(&tags, Tag::TileOffsets, &vec![3; 256 * samples as usize]));
+        let page = Page::new(WIDTH, HEIGHT, samples).tiled(16).tag(Tag::ExtraSamples, 0);
+        let error = refusal(&page.chunk(&vec![3; 256 * samples as usize]).file());
         assert!(error.found.contains("neither colour nor alpha"), "{}", error.found);
     }
 }
@@ -341,37 +329,50 @@ fn tiles_with_further_samples_are_refused() {
 /// The decoder takes for an alpha what these tags do not.
 #[test]
 fn samples_that_the_tags_do_not_tell_of_are_refused() {
-    let tags = [
-        (Tag::ImageWidth, WIDTH),
-        (Tag::ImageLength, HEIGHT),
-        (Tag::BitsPerSample, 8),
-        (Tag::Compression, 1),
-        (Tag::PhotometricInterpretation, RGB.into()),
-        (Tag::SamplesPerPixel, 5),
-        (Tag::ExtraSamples, 0),
-        (Tag::RowsPerStrip, HEIGHT),
-        (Tag::StripByteCounts, 5 * TEXELS),
-    ];
-    let file = by_tags(&tags, Tag::StripOffsets, &vec![3; 5 * TEXELS as usize]);
-    let error = refusal(&file);
+    let page = Page::new(WIDTH, HEIGHT, 5).tag(Tag::ExtraSamples, 0);
+    let error = refusal(&page.chunk(&vec![3; 5 * TEXELS as usize]).file());
     assert!(error.found.contains("4 samples a texel of which its tags tell of 3"), "{}", error.found);
 }
 
 /// A row of a tile is held whole, however small the picture: such a file of 200 bytes asks for a petabyte.
 #[test]
 fn a_small_file_takes_little_memory() {
-    let tags = tiled(
-        1,
-        &[
-            (Tag::BitsPerSample, 32),
-            (Tag::SampleFormat, 3),
-            (Tag::Compression, 5),
-            (Tag::Predictor, 3),
-            (Tag::SamplesPerPixel, 65_535),
-            (Tag::TileWidth, u32::MAX / 16 * 16),
-            (Tag::TileByteCounts, 16),
-        ],
-    );
-    let error = refusal(&by_tags(&tags, Tag::TileOffsets, &[0; 16]));
+    let page = Page::new(WIDTH, HEIGHT, 65_535)
+        .tag(Tag::PhotometricInterpretation, BLACK_IS_ZERO.into())
+        .tag(Tag::BitsPerSample, 32)
+        .tag(Tag::SampleFormat, FLOAT.into())
+        .tag(Tag::Compression, 5)
+        .tag(Tag::Predictor, 3)
+        .tag(Tag::TileWidth, u32::MAX / 16 * 16)
+        .tag(Tag::TileLength, 16);
+    let error = refusal(&page.chunk(&[0; 16]).file());
     assert_eq!(error.found, cut_off().found);
+}
+
+#[test]
+fn rows_in_another_order_are_told_of() {
+    let page = || Page::new(WIDTH, HEIGHT, 1).chunk(&samples(1));
+    assert_eq!(read(&page().file()).notes, [""; 0]);
+    // 0 and 9 are none of the standard's.
+    for orientation in 0..=9 {
+        let image = read(&page().tag(Tag::Orientation, orientation).file());
+        let is_turned = (2..=8).contains(&orientation);
+        let notes = if is_turned { vec![ORIENTATION] } else { vec![] };
+        assert_eq!((image.pixels, image.notes), (Pixels::U8(samples(1)), notes), "{orientation}");
+    }
+}
+
+/// By the standard a page has to say what its samples are; the decoder holds it to that.
+#[test]
+fn samples_of_an_unknown_kind_are_refused() {
+    let page = || Page::new(WIDTH, HEIGHT, 1).chunk(&samples(1));
+    for page in
+        [page().without(Tag::PhotometricInterpretation), page().tag(Tag::PhotometricInterpretation, 32_803)]
+    {
+        let error = refusal(&page.file());
+        assert_eq!(
+            (error.expected.as_str(), error.found.as_str()),
+            (EXPECTED, "unknown photometric interpretation")
+        );
+    }
 }
