@@ -178,15 +178,15 @@ pub const KEYFRAME: Field = Field::new(
     "keyframe",
     Kind::Block(&KEYFRAME_BLOCK),
     Presence::Repeated,
-    "Where it stands at a time, in place of `pos`. What moves is rendered standing still, where it is when the shutter \
-     opens, with a warning.",
+    "Where it stands at a time, in place of `pos`. What moves while the shutter is open is blurred. A model whose materials \
+     emit is rendered standing still, where it is when the shutter opens, with a warning.",
 );
 
 /// The declaration of `keyframe`.
 pub static KEYFRAME_BLOCK: Block = Block::new(
     "keyframe",
-    "Where a camera or a model stands at a time, as later versions write it. Between two of them it moves evenly; before \
-     the first and after the last it stands still.",
+    "Where a camera or a model stands at a time, as later versions write it. Between two of them it moves evenly and \
+     turns evenly, the shorter way; before the first and after the last it stands still.",
     &[
         Field::new(
             "time",

@@ -4,7 +4,7 @@
 //! film where it stands, at any distance with the same density over the area across the rays: one over that of the sensor.
 
 use crate::{FilmPosition, LensRay, ThinLensParameters};
-use indigo_math::{Real, Vec2, Vec3};
+use indigo_math::{Mat3, Real, Vec2, Vec3};
 
 /// A camera of parallel rays.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,6 +66,22 @@ impl Orthographic {
     /// The viewing direction.
     pub fn forwards(&self) -> Vec3 {
         self.forwards
+    }
+
+    /// How deep in the picture a point lies, metres.
+    pub(crate) fn depth(&self, p: Vec3) -> Real {
+        (p - self.middle).dot(self.forwards)
+    }
+
+    /// The same turned about the origin, and then moved.
+    pub(crate) fn moved(&self, turn: Mat3<Real>, by: Vec3) -> Self {
+        Self {
+            middle: turn * self.middle + by,
+            right: turn * self.right,
+            up: turn * self.up,
+            forwards: turn * self.forwards,
+            ..*self
+        }
     }
 }
 

@@ -6,7 +6,7 @@
 use crate::{FilmPosition, LensRay, ThinLensParameters};
 use indigo_math::angle::atan2_turns;
 use indigo_math::elementary::sin_cos_turns;
-use indigo_math::{Real, Vec2, Vec3};
+use indigo_math::{Mat3, Real, Vec2, Vec3};
 
 /// Solid angle of the whole film, were all of it as at the horizon: 2π round it, by π.
 const HORIZON: Real = (2.0 * std::f64::consts::PI * std::f64::consts::PI) as Real;
@@ -74,6 +74,21 @@ impl Spherical {
     /// The direction in which the middle of the film looks.
     pub fn forwards(&self) -> Vec3 {
         self.forwards
+    }
+
+    /// How deep in the picture a point lies, metres.
+    pub(crate) fn depth(&self, p: Vec3) -> Real {
+        (p - self.position).length()
+    }
+
+    /// The same turned about the origin, and then moved.
+    pub(crate) fn moved(&self, turn: Mat3<Real>, by: Vec3) -> Self {
+        Self {
+            position: turn * self.position + by,
+            right: turn * self.right,
+            up: turn * self.up,
+            forwards: turn * self.forwards,
+        }
     }
 }
 

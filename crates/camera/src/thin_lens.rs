@@ -7,7 +7,7 @@
 //! the sensor than its middle, and looks the same way: the picture is another part of the same image, so that
 //! densities and blur are those of the lens that is not shifted.
 
-use indigo_math::{Real, Vec2, Vec3, Vec3d};
+use indigo_math::{Mat3, Real, Vec2, Vec3, Vec3d};
 
 /// What a thin lens is made from; lengths in metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -208,6 +208,22 @@ impl ThinLens {
     /// The viewing direction.
     pub fn forwards(&self) -> Vec3 {
         self.forwards
+    }
+
+    /// How deep in the picture a point lies, metres.
+    pub(crate) fn depth(&self, p: Vec3) -> Real {
+        (p - self.position).dot(self.forwards)
+    }
+
+    /// The same turned about the origin, and then moved.
+    pub(crate) fn moved(&self, turn: Mat3<Real>, by: Vec3) -> Self {
+        Self {
+            position: turn * self.position + by,
+            right: turn * self.right,
+            up: turn * self.up,
+            forwards: turn * self.forwards,
+            ..*self
+        }
     }
 }
 

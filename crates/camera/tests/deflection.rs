@@ -43,7 +43,7 @@ fn averages(camera: &Camera, n: u32, f: impl Fn(f64, f64) -> f64) -> [Moments; L
     for _ in 0..n {
         // All heroes take their turn, so that each lane's estimate is balanced over them.
         let lambda = SampledWavelengths::sample(rng.uniform_f32() as Real);
-        let ray = camera.sample(Vec2::new(0.5, 0.5), random(&mut rng), random(&mut rng), &lambda);
+        let ray = camera.sample(Vec2::new(0.5, 0.5), random(&mut rng), random(&mut rng), &lambda, 0.0);
         assert!(ray.ratio[0] == 1.0 && ray.direction.is_finite() && ray.offset.x.is_finite());
         let metres = [ray.offset.x.to_f64() * WIDTH, -ray.offset.y.to_f64() * WIDTH];
         for (lane, m) in moments.iter_mut().enumerate() {
@@ -91,7 +91,7 @@ fn picture(
     let mut pixels = vec![0.0; side * side];
     for _ in 0..n {
         let lambda = SampledWavelengths::sample(rng.uniform_f32() as Real);
-        let ray = camera.sample(Vec2::new(0.5, 0.5), random(&mut rng), random(&mut rng), &lambda);
+        let ray = camera.sample(Vec2::new(0.5, 0.5), random(&mut rng), random(&mut rng), &lambda, 0.0);
         let metres = [ray.offset.x.to_f64() * WIDTH, -ray.offset.y.to_f64() * WIDTH];
         let of_lamp = lamp(&mut rng);
         for lane in 0..LANES {
@@ -206,7 +206,7 @@ fn the_pattern_grows_with_the_wavelength() {
         let radius = 1.22 * 1e-9 * lambda.lambda[0].to_f64() * DISTANCE / (2.0 * RADIUS);
         let mut beyond = Moments::default();
         for _ in 0..100_000 {
-            let ray = camera.sample(Vec2::new(0.5, 0.5), random(&mut rng), random(&mut rng), &lambda);
+            let ray = camera.sample(Vec2::new(0.5, 0.5), random(&mut rng), random(&mut rng), &lambda, 0.0);
             let metres = ray.offset.x.to_f64().hypot(ray.offset.y.to_f64()) * WIDTH;
             beyond.add(f64::from(u8::from(metres > radius)));
         }
@@ -223,8 +223,8 @@ fn a_deflected_ray_belongs_to_another_film_position() {
     let lambda = SampledWavelengths::sample(0.4);
     for _ in 0..1000 {
         let film = random(&mut rng);
-        let ray = camera.sample(film, random(&mut rng), random(&mut rng), &lambda);
-        let found = camera.film_position(ray.origin, ray.direction).expect("it looks forwards").position;
+        let ray = camera.sample(film, random(&mut rng), random(&mut rng), &lambda, 0.0);
+        let found = camera.film_position(ray.origin, ray.direction, 0.0).expect("it looks forwards").position;
         let off = found - ray.offset - film;
         let size = ray.offset.x.abs().max(ray.offset.y.abs()).max(1.0);
         assert!(off.x.abs().max(off.y.abs()) < 1e-4 * size, "{off:?}");
@@ -239,7 +239,7 @@ fn extreme_numbers_are_deflected_too() {
     let lambda = SampledWavelengths::sample(0.9);
     for u in [0.0, 1e-8, 0.25, 0.5, LAST] {
         for v in [0.0, 0.499_999_97, 0.5, LAST] {
-            let ray = camera.sample(Vec2::new(0.5, 0.5), Vec2::new(0.1, 0.2), Vec2::new(u, v), &lambda);
+            let ray = camera.sample(Vec2::new(0.5, 0.5), Vec2::new(0.1, 0.2), Vec2::new(u, v), &lambda, 0.0);
             assert!(ray.direction.is_finite() && ray.ratio.is_finite(), "{u} {v}: {ray:?}");
             assert!(ray.importance > 0.0 && ray.importance <= 1.0, "{u} {v}: {ray:?}");
         }
@@ -255,13 +255,13 @@ fn the_mean_density_of_an_offset_is_that_of_any_hero() {
     for _ in 0..20 {
         let (u, lens) = (random(&mut rng), random(&mut rng));
         let lambda = SampledWavelengths::sample(rng.uniform_f32() as Real);
-        let first = camera.sample(film, lens, u, &lambda);
+        let first = camera.sample(film, lens, u, &lambda, 0.0);
         for turn in 1..LANES {
             let mut turned = lambda;
             turned.lambda.rotate_left(turn);
             turned.pdf.rotate_left(turn);
             // The number that leads this hero just as far: the larger, the farther or the nearer.
-            let at = |x: Real| camera.sample(film, lens, Vec2::new(x, u.y), &turned);
+            let at = |x: Real| camera.sample(film, lens, Vec2::new(x, u.y), &turned, 0.0);
             let [near, far] = [0.01, 0.99].map(|x: Real| at(x).offset_disc);
             let (mut lo, mut hi): (Real, Real) = (0.0, 1.0);
             for _ in 0..40 {

@@ -1,7 +1,7 @@
 //! The lens is sampled evenly, and the film is a faithful map of directions.
 
 use indigo_camera::{Aperture, Blades, Camera, CameraKind, GreyImage, ThinLens, ThinLensParameters};
-use indigo_math::{Float, Real, Vec2, Vec3, Vec3d};
+use indigo_math::{Float, Motion, Pose, Real, Vec2, Vec3, Vec3d};
 use indigo_testkit::chi2::{Chi2, Domain};
 use indigo_testkit::rng::Rng;
 use indigo_testkit::stats::Moments;
@@ -212,8 +212,8 @@ fn a_spherical_camera_sees_directions_by_its_density() {
         },
         |d| {
             let d = Vec3d::from(d).cast();
-            let at_distance = camera.pdf_direction(d, 7.0);
-            assert_eq!(at_distance, camera.pdf_direction(d, 1.0));
+            let at_distance = camera.pdf_direction(d, 7.0, 0.0);
+            assert_eq!(at_distance, camera.pdf_direction(d, 1.0, 0.0));
             at_distance.to_f64()
         },
     );
@@ -236,26 +236,36 @@ fn an_orthographic_camera_sees_by_area() {
     );
     assert!(result.passed(), "{result}");
     for distance in [0.5, 1.0, 20.0] {
-        let density = camera.pdf_direction(camera.forwards(), distance) / (distance * distance);
+        let density = camera.pdf_direction(camera.forwards(), distance, 0.0) / (distance * distance);
         assert!((density * 6.0 - 1.0).abs() < 1e-6, "{density}");
     }
 }
 
-/// Whatever a ray of any kind of camera passes, is seen by one that begins where that one does, at its film position.
+/// Whatever a ray of any kind of camera passes, is seen by one that begins where that one does, at its film position, be it
+/// still or moving.
 #[test]
 fn what_is_seen_is_found_again() {
     let lens = camera(4.0, 0.05);
     let others = [CameraKind::Orthographic, CameraKind::Spherical].map(without_lens);
     let mut rng = Rng::new(6);
-    for camera in [lens].iter().chain(&others) {
+    let pose = |x: f64, angle: f64| Pose {
+        pos: Vec3d::new(x, 2.0 * x, 0.0),
+        turn: ((angle / 2.0).cos(), Vec3d::new(0.0, 0.6, 0.8) * (angle / 2.0).sin()),
+    };
+    let still: Vec<Camera> = [lens].into_iter().chain(others).collect();
+    let moving = still.clone().into_iter().map(|camera| {
+        camera.with_motion(Motion::new(vec![(0.0, pose(0.0, 0.3)), (1.0, pose(3.0, 1.0))]).expect("poses"))
+    });
+    for camera in still.iter().cloned().chain(moving) {
         for _ in 0..1000 {
             let film = Vec2::new(0.5, 0.5) + (random(&mut rng) - Vec2::new(0.5, 0.5)) * 0.98;
-            let ray = camera.ray(film, random(&mut rng));
+            let time = rng.uniform_f32() as Real;
+            let ray = camera.ray_at(film, random(&mut rng), time);
             let seen = ray.origin + ray.direction * 3.0;
-            let origin = camera.origin_towards(seen, ray.origin);
+            let origin = camera.origin_towards(seen, ray.origin, time);
             assert!((origin - ray.origin).length() < 1e-5, "{ray:?} {origin:?}");
             let found =
-                camera.film_position(origin, (seen - origin).normalized()).expect("before the camera");
+                camera.film_position(origin, (seen - origin).normalized(), time).expect("before the camera");
             // Near the poles a turn is told by a hundredth of the direction.
             let way = found.position - film;
             assert!(way.x.abs() < 1e-4 && way.y.abs() < 1e-4, "{film:?} {found:?}");

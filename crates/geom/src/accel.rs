@@ -2,6 +2,7 @@
 
 use crate::build::Builder;
 use crate::mesh::TriangleMesh;
+use crate::movement::Movement;
 use crate::object::Object;
 use crate::ray::{Hit, Ray};
 use crate::shapes::{hit_plane, hit_sphere};
@@ -101,6 +102,8 @@ pub struct Stats {
 pub struct Accel {
     pub(crate) meshes: Vec<TriangleMesh>,
     pub(crate) objects: Vec<Object>,
+    /// How objects move that do, by number.
+    movements: Vec<(u32, Movement)>,
     trees: Trees,
     kernel: ChosenKernel,
 }
@@ -135,14 +138,35 @@ impl Accel {
     /// and handed to it.
     pub fn build(
         meshes: Vec<TriangleMesh>,
+        objects: Vec<Object>,
+        options: &BuildOptions,
+        store: &dyn TreeStore,
+    ) -> Result<Self, BuildError> {
+        Self::build_moving(meshes, objects, vec![], options, store)
+    }
+
+    /// The same where some of the objects, all of them meshes, move: `movements` tells of each its number and how, and the
+    /// object's own place is that at time 0.
+    pub fn build_moving(
+        meshes: Vec<TriangleMesh>,
         mut objects: Vec<Object>,
+        mut movements: Vec<(u32, Movement)>,
         options: &BuildOptions,
         store: &dyn TreeStore,
     ) -> Result<Self, BuildError> {
         check(&meshes, &objects)?;
+        movements.sort_by_key(|(object, _)| *object);
+        movements.dedup_by_key(|(object, _)| *object);
+        check_movements(&movements, &objects)?;
         objects.iter_mut().for_each(Object::normalize);
-        let trees = Trees::build(&meshes, &objects, options, store)?;
-        Ok(Self { meshes, objects, trees, kernel: ChosenKernel::new(options.kernel) })
+        let trees = Trees::build(&meshes, &objects, &movements, options, store)?;
+        Ok(Self { meshes, objects, movements, trees, kernel: ChosenKernel::new(options.kernel) })
+    }
+
+    /// How an object moves, if it does.
+    #[inline]
+    pub fn movement(&self, object: u32) -> Option<&Movement> {
+        movement_of(&self.movements, object)
     }
 
     /// The first hit of a ray, if there is one.
@@ -189,9 +213,15 @@ impl Accel {
         &self.meshes
     }
 
-    /// A box round an object in render space; planes have no end.
+    /// A box round an object in render space, wherever it comes; planes have no end.
     pub fn object_bounds(&self, object: u32) -> Bounds3<f64> {
         match &self.objects[object as usize] {
+            Object::Mesh { mesh, .. } if self.movement(object).is_some() => {
+                let points = self.meshes[*mesh as usize].positions();
+                let own = Bounds3::of_points(points.iter().map(|p| Vec3d::from(p.map(f64::from))));
+                let movement = self.movement(object).filter(|_| !own.is_empty());
+                movement.map_or(own, |movement| movement.bounds(&own))
+            }
             Object::Mesh { mesh, transform } => {
                 let points = self.meshes[*mesh as usize].positions();
                 Bounds3::of_points(points.iter().map(|p| transform.point(Vec3d::from(p.map(f64::from)))))
@@ -287,6 +317,29 @@ fn check(meshes: &[TriangleMesh], objects: &[Object]) -> Result<(), BuildError> 
     Ok(())
 }
 
+/// Only meshes move, and what single precision does not hold is refused at each of their turns.
+fn check_movements(movements: &[(u32, Movement)], objects: &[Object]) -> Result<(), BuildError> {
+    for (object, movement) in movements {
+        let Some(Object::Mesh { mesh, .. }) = objects.get(*object as usize) else {
+            return Err(BuildError::Unsound(*object as usize));
+        };
+        let at = |time| Object::Mesh { mesh: *mesh, transform: movement.at(time) };
+        if !movement.times().all(|time| at(time).is_sound()) {
+            return Err(BuildError::Unsound(*object as usize));
+        }
+    }
+    Ok(())
+}
+
+/// The movement of an object in a list in order of their numbers.
+#[inline]
+pub(crate) fn movement_of(movements: &[(u32, Movement)], object: u32) -> Option<&Movement> {
+    if movements.is_empty() {
+        return None;
+    }
+    movements.binary_search_by_key(&object, |(object, _)| *object).ok().map(|i| &movements[i].1)
+}
+
 fn set_shape_hit<T: Float>(hit: &mut RawHit<T>, t: Option<Real>, object: u32) -> bool {
     if let Some(t) = t {
         *hit = RawHit { object, id: 0, ..RawHit::none(T::from_f64(t.to_f64())) };
@@ -309,7 +362,10 @@ impl<K: Kernel> Specials<K::Scalar> for SceneSpecials<'_, K> {
         let Some(special) = self.accel.trees.specials.get(number as usize) else { return false };
         match &self.accel.objects[special.object as usize] {
             Object::Mesh { transform, .. } => {
-                let ray = instance_ray(self.ray, transform);
+                let ray = match self.accel.movement(special.object) {
+                    None => instance_ray(self.ray, transform),
+                    Some(movement) => instance_ray(self.ray, &movement.at(self.ray.time)),
+                };
                 // The kernel's promises hold for sound rays only, and the image of one need not be.
                 if !ray.is_sound() {
                     return false;

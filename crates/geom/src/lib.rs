@@ -4,6 +4,8 @@
 //! anything is in its way. [`Accel::surface`] turns a hit into a [`SurfacePoint`] with an error
 //! bound; [`offset_origin`] starts the next ray clear of that error.
 //!
+//! What moves has a [`Movement`], and is where it is at the [`Ray::time`].
+//!
 //! One node format (8-wide, `wide`), two builders (`build`), one traversal kernel (`traverse`)
 //! whose lanes are AVX2 registers or plain arrays, chosen once per [`Accel`]; both give the same
 //! hits bit for bit. Nothing here opens a file: built trees are kept by a [`TreeStore`] of the host.
@@ -12,6 +14,7 @@ mod accel;
 mod build;
 mod cache;
 mod mesh;
+mod movement;
 mod object;
 mod ray;
 mod shapes;
@@ -27,6 +30,7 @@ mod wide;
 
 pub use accel::{Accel, BuildError, BuildOptions, KernelChoice, Stats};
 pub use mesh::{MeshBuffers, MeshError, TriangleMesh};
+pub use movement::Movement;
 pub use object::Object;
 pub use ray::{Hit, Ray};
 pub use stop::Stop;

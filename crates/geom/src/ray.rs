@@ -15,13 +15,15 @@ pub struct Ray {
     pub t_min: Real,
     /// Hits at or beyond this `t` do not count; may be infinite.
     pub t_max: Real,
+    /// When it is traced: the shutter opens at 0 and closes at 1.
+    pub time: Real,
 }
 
 impl Ray {
-    /// The whole half-line from `o` along `d`.
+    /// The whole half-line from `o` along `d`, when the shutter opens.
     #[inline]
     pub fn new(o: Vec3, d: Vec3) -> Self {
-        Self { o, d, t_min: 0.0, t_max: Real::INFINITY }
+        Self { o, d, t_min: 0.0, t_max: Real::INFINITY, time: 0.0 }
     }
 
     /// The point at parameter `t`.

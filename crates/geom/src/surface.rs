@@ -7,6 +7,7 @@ use crate::ray::{Hit, Ray};
 use crate::shapes::{onto_plane, onto_sphere};
 use crate::soup::baked_vertex;
 use indigo_math::{Bounds3, Float, Real, Transform, Vec3, Vec3d};
+use std::borrow::Cow;
 
 /// Half the distance between neighbouring numbers of the kernel's boxes and triangles, relative.
 const ROUNDING: f64 = 0.5 * f32::EPSILON as f64;
@@ -37,6 +38,8 @@ pub struct SurfacePoint {
     pub primitive: u32,
     /// Material slot of the object.
     pub material_slot: u32,
+    /// When it is there: see [`Ray::time`].
+    pub time: Real,
 }
 
 /// Where to start a ray that leaves `p` in direction `dir`, clear of the surface's error.
@@ -66,15 +69,25 @@ impl Accel {
                 shape_point(p, along.abs(), n, hit.object)
             }
             Object::Mesh { .. } => self
-                .triangle_point(hit.object, hit.primitive, (hit.u, hit.v))
+                .triangle_point_at(hit.object, hit.primitive, (hit.u, hit.v), ray.time)
                 .unwrap_or_else(|| shape_point(along, along.abs(), -ray.d.cast(), hit.object)),
         }
     }
 
     /// The surface at barycentric coordinates (of vertices 1 and 2) of a triangle; `None` where the
-    /// object is not a mesh or has no such triangle.
+    /// object is not a mesh or has no such triangle. When the shutter opens, if it moves.
     pub fn triangle_point(&self, object: u32, triangle: u32, bary: (Real, Real)) -> Option<SurfacePoint> {
-        let placed = self.placed(object, triangle)?;
+        self.triangle_point_at(object, triangle, bary, 0.0)
+    }
+
+    fn triangle_point_at(
+        &self,
+        object: u32,
+        triangle: u32,
+        bary: (Real, Real),
+        time: Real,
+    ) -> Option<SurfacePoint> {
+        let placed = self.placed(object, triangle, time)?;
         let p = mix(&placed.corners, bary);
         let n_g = placed.normal();
         Some(SurfacePoint {
@@ -86,18 +99,23 @@ impl Accel {
             object,
             primitive: triangle,
             material_slot: placed.mesh.material_slot(triangle),
+            time,
         })
     }
 
     /// The corners of a triangle in render space; `None` where the object is not a mesh or has no
-    /// such triangle.
+    /// such triangle. When the shutter opens, if it moves.
     pub fn corners(&self, object: u32, triangle: u32) -> Option<[Vec3d; 3]> {
-        Some(self.placed(object, triangle)?.corners)
+        Some(self.placed(object, triangle, 0.0)?.corners)
     }
 
-    /// A triangle where its object puts it.
-    pub(crate) fn placed(&self, object: u32, triangle: u32) -> Option<PlacedTriangle<'_>> {
+    /// A triangle where its object puts it at a time.
+    pub(crate) fn placed(&self, object: u32, triangle: u32, time: Real) -> Option<PlacedTriangle<'_>> {
         let Object::Mesh { mesh, transform } = self.objects.get(object as usize)? else { return None };
+        let transform = match self.movement(object) {
+            None => Cow::Borrowed(transform),
+            Some(movement) => Cow::Owned(movement.at(time)),
+        };
         let baked = self.is_baked(*mesh);
         let mesh = &self.meshes[*mesh as usize];
         if triangle as usize >= mesh.triangles().len() {
@@ -107,12 +125,13 @@ impl Accel {
         // The tree has baked corners in single precision; an instance's are exact in its own space.
         let corner = |p: [f32; 3]| {
             if baked {
-                Vec3::<f32>::from(baked_vertex(transform, p)).cast()
+                Vec3::<f32>::from(baked_vertex(&transform, p)).cast()
             } else {
                 transform.point(Vec3::<f32>::from(p).cast::<f64>())
             }
         };
-        Some(PlacedTriangle { mesh, triangle, transform, local, corners: local.map(corner), baked })
+        let corners = local.map(corner);
+        Some(PlacedTriangle { mesh, triangle, transform, local, corners, baked })
     }
 }
 
@@ -120,7 +139,7 @@ impl Accel {
 pub(crate) struct PlacedTriangle<'a> {
     pub mesh: &'a TriangleMesh,
     pub triangle: u32,
-    pub transform: &'a Transform,
+    pub transform: Cow<'a, Transform>,
     pub corners: [Vec3d; 3],
     local: [[f32; 3]; 3],
     baked: bool,
@@ -192,5 +211,7 @@ fn shape_point(p: Vec3d, size: Vec3d, n: Vec3d, object: u32) -> SurfacePoint {
         object,
         primitive: 0,
         material_slot: 0,
+        // Only meshes move.
+        time: 0.0,
     }
 }

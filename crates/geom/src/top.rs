@@ -1,6 +1,7 @@
 //! The tree above the trees: instances, spheres, and the baked tree opened into a few subtrees.
 
 use crate::build::{LeafMaker, Prim, Size, TOP_DEPTH, collapse, split_all};
+use crate::movement::Movement;
 use crate::stop::Stop;
 use crate::wide::{Box3, Child, Node};
 use indigo_math::{Bounds3, Transform, Vec3d};
@@ -67,6 +68,12 @@ pub(crate) fn transformed_box(bounds: &Box3, transform: &Transform) -> Box3 {
         transform.point(Vec3d::new(pick(0).into(), pick(1).into(), pick(2).into()))
     };
     outward(&Bounds3::of_points((0..8).map(corner)))
+}
+
+/// The same wherever a moving thing comes.
+pub(crate) fn moving_box(bounds: &Box3, movement: &Movement) -> Box3 {
+    let corner = |p: [f32; 3]| Vec3d::from(p.map(f64::from));
+    outward(&movement.bounds(&Bounds3 { lo: corner(bounds.lo), hi: corner(bounds.hi) }))
 }
 
 /// A box round a sphere.

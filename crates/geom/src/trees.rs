@@ -1,12 +1,13 @@
 //! The trees of a scene: the baked one, those of instanced meshes, and the upper one over both.
 
-use crate::accel::{BuildError, BuildOptions, Stats};
+use crate::accel::{BuildError, BuildOptions, Stats, movement_of};
 use crate::cache::load_or_build;
 use crate::mesh::TriangleMesh;
+use crate::movement::Movement;
 use crate::object::Object;
 use crate::soup::{Soup, bake};
 use crate::store::TreeStore;
-use crate::top::{TopItem, build_top, open, sphere_box, transformed_box};
+use crate::top::{TopItem, build_top, moving_box, open, sphere_box, transformed_box};
 use crate::wide::{Block, Box3, Child, Node};
 use indigo_math::pages::in_huge_pages;
 
@@ -46,10 +47,11 @@ impl Trees {
     pub(crate) fn build(
         meshes: &[TriangleMesh],
         objects: &[Object],
+        movements: &[(u32, Movement)],
         options: &BuildOptions,
         store: &dyn TreeStore,
     ) -> Result<Self, BuildError> {
-        let plan = Plan::new(meshes, objects, options);
+        let plan = Plan::new(meshes, objects, movements, options);
         plan.check(meshes, objects)?;
         let mut forest = Forest { nodes: Vec::new(), blocks: Vec::new(), stats: Stats::default(), trees: 0 };
         let (soup, baked) = bake(meshes, objects, &plan.baked);
@@ -59,7 +61,7 @@ impl Trees {
         for &mesh in &plan.instanced {
             roots[mesh as usize] = forest.add(&Soup::of(&meshes[mesh as usize]), options, store)?;
         }
-        let (mut items, specials) = special_items(objects, &plan, &roots);
+        let (mut items, specials) = special_items(objects, movements, &plan, &roots);
         if !items.is_empty() {
             if root != Child::NONE {
                 items.extend(open(root, bounds, &forest.nodes));
@@ -133,7 +135,12 @@ impl Forest {
 }
 
 /// The instances and spheres as things of the upper tree, and by number.
-fn special_items(objects: &[Object], plan: &Plan, roots: &[(Child, Box3)]) -> (Vec<TopItem>, Vec<Special>) {
+fn special_items(
+    objects: &[Object],
+    movements: &[(u32, Movement)],
+    plan: &Plan,
+    roots: &[(Child, Box3)],
+) -> (Vec<TopItem>, Vec<Special>) {
     let (mut items, mut specials) = (Vec::new(), Vec::new());
     for (i, object) in objects.iter().enumerate() {
         let (root, bounds) = match object {
@@ -144,7 +151,11 @@ fn special_items(objects: &[Object], plan: &Plan, roots: &[(Child, Box3)]) -> (V
                 if plan.is_baked(*mesh) || root == Child::NONE {
                     continue;
                 }
-                (root, transformed_box(&bounds, transform))
+                let bounds = match movement_of(movements, i as u32) {
+                    None => transformed_box(&bounds, transform),
+                    Some(movement) => moving_box(&bounds, movement),
+                };
+                (root, bounds)
             }
         };
         items.push(TopItem { bounds, child: Child::special(specials.len() as u32) });
@@ -163,16 +174,24 @@ struct Plan {
 }
 
 impl Plan {
-    fn new(meshes: &[TriangleMesh], objects: &[Object], options: &BuildOptions) -> Self {
+    fn new(
+        meshes: &[TriangleMesh],
+        objects: &[Object],
+        movements: &[(u32, Movement)],
+        options: &BuildOptions,
+    ) -> Self {
         let mut uses = vec![0usize; meshes.len()];
         let mesh_of =
             |o: &Object| if let Object::Mesh { mesh, .. } = o { Some(*mesh as usize) } else { None };
         objects.iter().filter_map(mesh_of).for_each(|m| uses[m] += 1);
-        let is_instanced: Vec<bool> = meshes
+        let mut is_instanced: Vec<bool> = meshes
             .iter()
             .zip(&uses)
             .map(|(m, &n)| n > 1 && m.triangles().len().saturating_mul(n) > options.bake_limit)
             .collect();
+        // What moves has no one place to be baked at.
+        let moving = movements.iter().filter_map(|(object, _)| mesh_of(&objects[*object as usize]));
+        moving.for_each(|mesh| is_instanced[mesh] = true);
         let is_baked = |o: &Object| mesh_of(o).is_some_and(|m| !is_instanced[m]);
         Self {
             baked: (0..objects.len() as u32).filter(|&o| is_baked(&objects[o as usize])).collect(),

@@ -46,13 +46,13 @@ impl Accel {
     }
 
     fn mesh_uv(&self, point: &SurfacePoint, set: u32) -> Option<Vec2<f64>> {
-        let placed = self.placed(point.object, point.primitive)?;
+        let placed = self.placed(point.object, point.primitive, point.time)?;
         let [a, b, c] = placed.mesh.corner_uvs(point.primitive, set)?;
         Some(a + (b - a) * point.bary.0.to_f64() + (c - a) * point.bary.1.to_f64())
     }
 
     fn mesh_derivatives(&self, point: &SurfacePoint, set: u32) -> Option<(Vec3d, Vec3d)> {
-        let placed = self.placed(point.object, point.primitive)?;
+        let placed = self.placed(point.object, point.primitive, point.time)?;
         let [a, b, c] = placed.mesh.corner_uvs(point.primitive, set)?;
         let (e1, e2) = (placed.corners[1] - placed.corners[0], placed.corners[2] - placed.corners[0]);
         let (d1, d2) = (b - a, c - a);

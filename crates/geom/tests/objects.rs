@@ -3,8 +3,10 @@
 mod common;
 
 use common::{KERNELS, Random, bumpy_sphere, options, place, ray, real, triangle_cloud, vec};
-use indigo_geom::{Accel, BuildOptions, MeshBuffers, NoStore, Object, Ray, TriangleMesh, offset_origin};
-use indigo_math::{Bounds3, Float, Mat3, Transform, Vec3, Vec3d};
+use indigo_geom::{
+    Accel, BuildOptions, MeshBuffers, Movement, NoStore, Object, Ray, TriangleMesh, offset_origin,
+};
+use indigo_math::{Bounds3, Float, Mat3, Motion, Pose, Real, Transform, Vec3, Vec3d};
 
 fn shapes(objects: Vec<Object>) -> Accel {
     Accel::build(Vec::new(), objects, &BuildOptions::default(), &NoStore).unwrap()
@@ -291,4 +293,71 @@ fn a_scene_of_everything_has_the_right_bounds_and_hits() {
 fn bounds_of_nothing_are_empty() {
     assert!(shapes(Vec::new()).bounds().is_empty());
     let _: Bounds3 = shapes(Vec::new()).bounds();
+}
+
+/// What moves is met where it is at the time of the ray, as an instance that stands there is, whatever else is in the scene.
+#[test]
+fn a_moving_mesh_is_where_it_is_at_the_time_of_the_ray() {
+    let turn = |angle: f64| ((angle / 2.0).cos(), Vec3d::new(0.0, 0.6, 0.8) * (angle / 2.0).sin());
+    let pose = |pos: [f64; 3], angle| Pose { pos: pos.into(), turn: turn(angle) };
+    let motion = Motion::new(vec![
+        (0.0, pose([0.0; 3], 0.0)),
+        (0.7, pose([3.0, 1.0, 0.0], 2.5)),
+        (1.0, pose([0.0, 5.0, 1.0], 2.0)),
+    ]);
+    let linear = transforms()[2].linear();
+    let movement = Movement::new(linear, motion.expect("poses")).expect("an invertible map");
+    let mesh = || bumpy_sphere(12);
+    let still = Object::Mesh { mesh: 1, transform: Transform::translation(Vec3d::new(0.0, 0.0, -8.0)) };
+    let moved = |time| Object::Mesh { mesh: 0, transform: movement.at(time) };
+    let mut random = Random(31);
+    for kernel in KERNELS {
+        // An instance that stands still is one since its mesh is used more than once.
+        let instanced = BuildOptions { bake_limit: 0, ..options(kernel) };
+        let moving = Accel::build_moving(
+            vec![mesh(), mesh()],
+            vec![moved(0.0), still],
+            vec![(0, movement.clone())],
+            &instanced,
+            &NoStore,
+        )
+        .unwrap();
+        let mut hits = 0;
+        for i in 0..=10u16 {
+            let time = Real::from(i) / 10.0;
+            let far = Object::Mesh { mesh: 0, transform: Transform::translation(Vec3d::new(0.0, 1e5, 0.0)) };
+            let objects = vec![moved(time), still, far];
+            let standing = Accel::build(vec![mesh(), mesh()], objects, &instanced, &NoStore).unwrap();
+            let bounds = moving.object_bounds(0);
+            assert!(
+                bounds.contains(standing.object_bounds(0).lo)
+                    && bounds.contains(standing.object_bounds(0).hi)
+            );
+            for _ in 0..300 {
+                let from = random.in_box(8.0);
+                // Near its middle, wherever that is.
+                let aim = movement.at(time).point(random.in_box(1.5)) - from;
+                let r = Ray { time, ..ray(from, aim) };
+                let (hit, expected) = (moving.intersect(&r), standing.intersect(&r));
+                assert_eq!(hit, expected);
+                assert_eq!(moving.occluded(&r), expected.is_some());
+                if let Some(hit) = hit {
+                    assert_eq!(moving.surface(&r, &hit).p, standing.surface(&r, &hit).p);
+                    assert_eq!(moving.surface(&r, &hit).n_g, standing.surface(&r, &hit).n_g);
+                    hits += usize::from(hit.object == 0);
+                }
+            }
+        }
+        assert!(hits > 100, "{hits} hits of what moves are few");
+    }
+    // A sphere has no place in time, and nothing has two meshes.
+    let sphere = Object::Sphere { center: Vec3d::ZERO, radius: 1.0 };
+    let refused = Accel::build_moving(
+        vec![mesh()],
+        vec![sphere],
+        vec![(0, movement)],
+        &BuildOptions::default(),
+        &NoStore,
+    );
+    assert!(refused.is_err());
 }

@@ -61,6 +61,14 @@ impl<T: Float> Bounds3<T> {
         d.x * d.y + d.y * d.z + d.z * d.x
     }
 
+    /// The eight corners.
+    pub fn corners(&self) -> [Vec3<T>; 8] {
+        std::array::from_fn(|i| {
+            let along = |axis: usize| if i >> axis & 1 == 0 { self.lo[axis] } else { self.hi[axis] };
+            Vec3::new(along(0), along(1), along(2))
+        })
+    }
+
     /// Whether two boxes have a point in common.
     pub fn overlaps(&self, b: &Self) -> bool {
         (0..3).all(|i| self.lo[i] <= b.hi[i] && b.lo[i] <= self.hi[i])

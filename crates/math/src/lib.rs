@@ -10,6 +10,7 @@ pub mod distribution;
 pub mod elementary;
 pub mod frame;
 pub mod grid_distribution;
+pub mod motion;
 pub mod pages;
 pub mod rng;
 pub mod scalar;
@@ -20,6 +21,7 @@ pub mod warp;
 
 pub use bounds::Bounds3;
 pub use frame::Frame;
+pub use motion::{Motion, Pose};
 pub use scalar::{Float, Real};
 pub use transform::Transform;
 pub use vec::{Mat3, Vec2, Vec3, Vec3d};

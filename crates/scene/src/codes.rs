@@ -30,7 +30,7 @@ indigo_decl::codes! {
     /// A turbidity beyond what the model of the sky knows.
     TURBIDITY = "W0309", "<skylight><sundir>0 0.6 1</sundir><turbidity>30</turbidity></skylight>";
     /// What moves is rendered standing still.
-    STANDS_STILL = "W0317", "(a `model` with two `keyframe`s in different places)";
+    STANDS_STILL = "W0317", "(a `model` that shines, with two `keyframe`s in different places)";
     /// A model that lists fewer materials than its mesh has.
     MATERIAL_COUNT = "W0318", "(a `model` whose `materials` are one, of a mesh with two)";
     /// Something of an emitting material that gives no light.

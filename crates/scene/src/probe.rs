@@ -19,13 +19,13 @@ const DIRECTIONS: [[Real; 3]; 5] = [
 ];
 
 impl Scene {
-    /// The media at a point by a probe in a direction: those that the ray leaves more often than it enters.
-    pub fn media_towards(&self, p: Vec3, direction: Vec3) -> MediumStack {
+    /// The media at a point and time by a probe in a direction: those that the ray leaves more often than it enters.
+    pub fn media_towards(&self, p: Vec3, direction: Vec3, time: Real) -> MediumStack {
         if self.media.is_empty() {
             return MediumStack::AIR;
         }
         let mut left = [(MediumId::AIR, 0i32); MEDIA];
-        let mut ray = Ray::new(p, direction);
+        let mut ray = Ray { time, ..Ray::new(p, direction) };
         while let Some(hit) = self.accel.intersect(&ray) {
             let at = self.accel.surface(&ray, &hit);
             if let Some(medium) = self.material_at(&at).internal_medium() {
@@ -46,9 +46,9 @@ impl Scene {
         stack
     }
 
-    /// The media at a point by most of several probes, so that a leak in one direction does no harm.
+    /// The media at a point, when the shutter opens, by most of several probes, so that a leak in one direction does no harm.
     pub fn media_at(&self, p: Vec3) -> MediumStack {
-        let found = DIRECTIONS.map(|d| self.media_towards(p, Vec3::from(d)));
+        let found = DIRECTIONS.map(|d| self.media_towards(p, Vec3::from(d), 0.0));
         let votes = |stack: &&MediumStack| found.iter().filter(|other| other == stack).count();
         // The first of those with the most votes.
         found.iter().rev().max_by_key(votes).copied().unwrap_or(MediumStack::AIR)
@@ -57,7 +57,11 @@ impl Scene {
     /// The media in which a camera ray begins.
     #[inline]
     pub fn camera_media_along(&self, ray: &Ray) -> MediumStack {
-        if self.camera_meets_interface { self.media_towards(ray.o, ray.d) } else { self.camera_media }
+        if self.camera_meets_interface {
+            self.media_towards(ray.o, ray.d, ray.time)
+        } else {
+            self.camera_media
+        }
     }
 
     /// Whether the surface of a medium passes the camera within twice its aperture: probes lean by less than
@@ -71,7 +75,7 @@ impl Scene {
         }
         DIRECTIONS.iter().any(|&d| {
             let d = Vec3::from(d);
-            let mut ray = Ray { o: d * -reach, d, t_min: 0.0, t_max: 2.0 * reach };
+            let mut ray = Ray { t_max: 2.0 * reach, ..Ray::new(d * -reach, d) };
             while let Some(hit) = self.accel.intersect(&ray) {
                 let at = self.accel.surface(&ray, &hit);
                 if self.material_at(&at).internal_medium().is_some() {
@@ -83,12 +87,12 @@ impl Scene {
         })
     }
 
-    /// The media round a point `p` of lamp number `lamp`, from which light leaves in a direction.
+    /// The media at a time round a point `p` of lamp number `lamp`, from which light leaves in a direction.
     #[inline]
-    pub fn media_at_lamp(&self, lamp: u32, p: Vec3, direction: Vec3) -> MediumStack {
+    pub fn media_at_lamp(&self, lamp: u32, p: Vec3, direction: Vec3, time: Real) -> MediumStack {
         match self.lamp_media.get(lamp as usize) {
             Some(Some(everywhere)) => *everywhere,
-            Some(None) => self.media_towards(p, direction),
+            Some(None) => self.media_towards(p, direction, time),
             None => MediumStack::AIR,
         }
     }
@@ -99,8 +103,10 @@ impl Scene {
             return;
         }
         self.camera_media = self.media_at(Vec3::ZERO);
-        self.camera_meets_interface = self.is_interface_near_camera();
         let objects = 0..self.accel.objects().len() as u32;
+        let moves = |i: u32| self.accel.movement(i).is_some() && self.is_interface(i);
+        self.camera_meets_interface =
+            self.camera.moves() || objects.clone().any(moves) || self.is_interface_near_camera();
         let bounds = |i: u32| self.accel.object_bounds(i);
         let interfaces: Vec<_> = objects.clone().filter(|&i| self.is_interface(i)).map(bounds).collect();
         let mut media = vec![Some(MediumStack::AIR); self.lights.len()];

@@ -42,13 +42,13 @@ impl FirstHits {
         let mut sum = Sum::default();
         let rays = std::array::from_fn(|ray| {
             let mut numbers = SobolSample::new(SEED, u64::from(y) << 32 | u64::from(x), ray as u32);
-            let [u, v, wavelength, _] = numbers.block(Block::FILM);
+            let [u, v, wavelength, time] = numbers.block(Block::FILM);
             let [lens_x, lens_y, ..] = numbers.block(Block::LENS);
             let (x, y) = (x as Real + u, y as Real + v);
             let position = Vec2::new(x / size.width() as Real, y / size.height() as Real);
             // Albedos are of daylight, whatever light the scene has.
             let lambda = SampledWavelengths::sample(wavelength);
-            let camera = scene.camera.ray(position, Vec2::new(lens_x, lens_y));
+            let camera = scene.camera.ray_at(position, Vec2::new(lens_x, lens_y), time);
             let (sensor, light) = (Sensor::new(&lambda), illuminant::d65(&lambda));
             let event = first_event(&mut self.memory, scene, &mut numbers, &lambda, &camera);
             if let Some(event) = event {

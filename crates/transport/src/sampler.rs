@@ -11,7 +11,7 @@ use indigo_math::{Real, rng, sobol};
 pub struct Block(u32);
 
 impl Block {
-    /// Film x and y, wavelength, and a number that is free.
+    /// Film x and y, wavelength, and time.
     pub const FILM: Self = Self(0);
     /// Lens x and y, and the direction in which light leaves a lamp.
     pub const LENS: Self = Self(1);

@@ -77,7 +77,7 @@ fn drawn(
     let ray = match &light.point {
         None => Ray::new(origin, light.wi),
         // A thousandth short of the light's own surface.
-        Some(to) => Ray { o: origin, d: to.p - origin, t_min: 0.0, t_max: 0.999 },
+        Some(to) => Ray { t_max: 0.999, ..Ray::new(origin, to.p - origin) },
     };
     if scene.accel.occluded(&ray) {
         return SampledSpectrum::ZERO;

@@ -127,6 +127,7 @@ grid! {
         thin_lens_out_of_focus,
         orthographic_camera,
         spherical_camera,
+        motion,
         lamps_out_of_focus,
         lamp_deflected_straight,
         coloured_walls_and_lamps,

@@ -2,7 +2,7 @@
 
 use super::common::judge::{NITS_PER_UNIFORM, assert_is, assert_near, assert_same};
 use super::common::shapes::{Mesh, mesh_light, model};
-use super::common::text::{flat_camera, grey, null, scene_file, settings, uniform};
+use super::common::text::{background, flat_camera, grey, null, scene_file, settings, uniform};
 use super::common::{film, scene, scene_with};
 use indigo_film::XyzImage;
 use indigo_imaging::{Picture, develop, on_sensor, png};
@@ -199,6 +199,51 @@ fn a_spherical_camera_shows_things_by_their_angles() {
     let covered = (0..steps).map(height).sum::<f64>() / f64::from(steps) * 2.0 * side / (2.0 * PI * PI);
     // 56° and, at the least, 39° of 90: here are 45° and 34°.
     expect_without_lens("spherical", distance, [[12, 20], [10, 22]], covered, "");
+}
+
+/// Before an even background a black square a quarter of the picture wide moves across by another quarter, seen by parallel rays:
+/// columns that it enters and leaves see it for the part of the time that it covers them. The same from a camera that moves the
+/// other way.
+#[test]
+fn what_moves_leaves_a_streak() {
+    let key =
+        |time: f64, x: f64, z: f64| format!("<keyframe><time>{time}</time><pos>{x} 0 {z}</pos></keyframe>");
+    let moving = |x: f64| key(0.0, 0.0, 0.0) + &key(2.0, x, 0.0);
+    let camera = |keys: &str| {
+        flat_camera([0.0, 0.0, -2.0], [0.0, 0.0, 1.0], 20.0)
+            .replace("<pos>0 0 -2</pos>", keys)
+            .replace("</camera>", "<camera_type>orthographic</camera_type></camera>")
+    };
+    let still = "<pos>0 0 0</pos>";
+    let text = |camera_keys: &str, keys: &str| {
+        scene_file(&[
+            settings(SIDE as u32, "<splat_filter><box/></splat_filter>"),
+            camera(camera_keys),
+            background(&uniform(1e5)),
+            grey("black", 0.0),
+            Mesh::square(0.25, 0.0).text("square", "black"),
+            model("square").replace(still, keys),
+        ])
+    };
+    let back = key(0.0, 0.0, -2.0) + &key(2.0, -1.0, -2.0);
+    // Half of the way of two units of time. The right of the picture is where x is negative.
+    let scenes =
+        [("the square", text("<pos>0 0 -2</pos>", &moving(1.0))), ("the camera", text(&back, still))];
+    for (what, text) in scenes {
+        for bidirectional in [false, true] {
+            let mut scene = scene(&text);
+            scene.transport.bidirectional = bidirectional;
+            let images: Vec<_> = (0..16).map(|seed| sensor(&scene, 90 + seed, 256)).collect();
+            // Columns of 1/16 unit: the square lies over 12 to 19 and ends over 4 to 11, so that eight see its edges pass.
+            for column in [4, 6, 9, 14, 16, 19] {
+                let passed = if column < 12 { column as f64 - 4.0 + 0.5 } else { 19.5 - column as f64 } / 8.0;
+                let light = Moments::of(images.iter().map(|i| mean(i, 1, [[column, column + 1], [12, 20]])));
+                let expected = (1.0 - passed) * 1e5 * NITS_PER_UNIFORM;
+                let what = format!("{what}, bidirectional {bidirectional}, column {column}");
+                assert_near(&what, &light, expected, 0.04);
+            }
+        }
+    }
 }
 
 /// A lamp of a centimetre out of focus, before a lens of 20 cm: each point of the disc sees it through

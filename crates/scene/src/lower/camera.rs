@@ -1,7 +1,7 @@
 //! The camera.
 
 use super::geometry::FARTHEST;
-use super::keyframes::Pose;
+use super::keyframes;
 use super::{Context, aperture};
 use crate::codes;
 use crate::scene::FilmSettings;
@@ -12,7 +12,7 @@ use indigo_decl::codes::OUT_OF_RANGE;
 use indigo_diag::{Diagnostic, Sink};
 use indigo_geom::{Accel, Ray, SurfacePoint};
 use indigo_imaging::{CameraFacts, Diffraction as DiffractionFilter, PictureSettings};
-use indigo_math::{Float, Vec3, Vec3d};
+use indigo_math::{Float, Motion, Vec3, Vec3d};
 use std::sync::Arc;
 
 /// Relative difference between the sensor's aspect ratio and the picture's that is worth a warning.
@@ -22,6 +22,8 @@ const ASPECT_TOLERANCE: f64 = 0.01;
 pub(super) struct Unfocused {
     kind: CameraKind,
     lens: ThinLensParameters,
+    /// How it moves, from its place when the shutter opens.
+    motion: Motion,
     aperture: Aperture,
     pupil: Pupil,
     diffraction: Diffraction,
@@ -42,8 +44,11 @@ pub(super) fn parameters(
     let focus_distance = node.opt_real("focus_distance").map_or(f64::INFINITY, |v| v.value);
     // The settings' switch and the camera's own both take vignetting out.
     let vignetting = node.bool("vignetting") && settings.bool("vignetting");
-    // Its place, and what there is to say of keyframes, is the business of `position`.
-    let turn = Pose::of(node, &mut Sink::new()).rotation();
+    // Where it is too far away is the business of `position`.
+    let motion = keyframes::motion(node);
+    let start = motion.at(0.0);
+    let turn = start.rotation();
+    let motion = motion.moved_by(-start.pos);
     let lens = ThinLensParameters {
         position: Vec3d::ZERO,
         forwards: turn * Vec3d::from(node.vec3("forwards")),
@@ -73,7 +78,7 @@ pub(super) fn parameters(
         node.disregard();
         return None;
     }
-    Some(Unfocused { kind, lens, aperture, pupil, diffraction, autofocus })
+    Some(Unfocused { kind, lens, motion, aperture, pupil, diffraction, autofocus })
 }
 
 fn kind(node: &Node) -> CameraKind {
@@ -99,8 +104,10 @@ fn warn_without_lens(node: &Node, kind: CameraKind, sink: &mut Sink) {
 
 /// The camera's place in the world; the origin where that is wrong.
 pub(super) fn position(node: &Node, sink: &mut Sink) -> Vec3d {
-    let pos = Pose::of(node, sink).pos;
-    if pos.to_array().iter().all(|x| x.abs() <= FARTHEST) {
+    let motion = keyframes::motion(node);
+    let is_near = |pos: Vec3d| pos.to_array().iter().all(|x| x.abs() <= FARTHEST);
+    let pos = motion.at(0.0).pos;
+    if is_near(pos) && motion.times(1.0).into_iter().all(|time| is_near(motion.at(time).pos)) {
         return pos;
     }
     sink.push(
@@ -285,7 +292,7 @@ impl Unfocused {
 
     /// The camera.
     pub(super) fn into_camera(self) -> Option<Camera> {
-        let camera = Camera::new(self.kind.optics(&self.lens)?, self.aperture);
+        let camera = Camera::new(self.kind.optics(&self.lens)?, self.aperture).with_motion(self.motion);
         if self.diffraction != Diffraction::Rays {
             return Some(camera);
         }

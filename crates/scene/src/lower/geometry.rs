@@ -1,6 +1,7 @@
 //! Placed objects: models, spheres and planes, with the materials of their slots.
 
 use super::emission::warn_of_darkness;
+use super::keyframes::warn_of_standing;
 use super::materials::{MaterialTable, UvSets};
 use super::meshes::{Mesh, MeshTable, Part};
 use super::placement;
@@ -9,7 +10,7 @@ use crate::codes;
 use crate::settings::Settings;
 use indigo_decl::Node;
 use indigo_diag::{Diagnostic, Sink, Span};
-use indigo_geom::Object;
+use indigo_geom::{Movement, Object};
 use indigo_math::{Bounds3, Transform, Vec3d};
 
 /// How far from 1 the length of a plane's normal may be: decimal rounding of exporters.
@@ -31,6 +32,8 @@ fn box_corners(transform: &Transform, reach: f64) -> impl Iterator<Item = Vec3d>
 pub(super) struct Placed {
     pub(super) mesh: u32,
     transform: Transform,
+    /// How it moves, if it does.
+    movement: Option<Movement>,
     /// Name of the mesh.
     pub(super) name: String,
     /// Its materials, and what they are called.
@@ -82,6 +85,8 @@ pub(super) struct Geometry<'a> {
     /// The camera's position: the origin of render space.
     origin: Vec3d,
     objects: Vec<Object>,
+    /// How objects move that do, by number.
+    movements: Vec<(u32, Movement)>,
     names: Vec<String>,
     first_slot: Vec<u32>,
     slots: Vec<u32>,
@@ -109,6 +114,7 @@ impl<'a> Geometry<'a> {
         Self {
             origin,
             objects: vec![],
+            movements: vec![],
             names: vec![],
             first_slot: vec![],
             slots: vec![],
@@ -133,8 +139,8 @@ impl<'a> Geometry<'a> {
         (self.objects.len() - 1) as u32
     }
 
-    /// Reports an object, given in the world, that reaches too far. A mesh's coordinates are no larger than `reach`.
-    pub(super) fn refuse_far(&self, object: &Object, reach: f64, span: Span, sink: &mut Sink) {
+    /// Whether an object, given in the world, reaches too far. A mesh's coordinates are no larger than `reach`.
+    fn is_far(&self, object: &Object, reach: f64) -> bool {
         let largest = |v: Vec3d| v.x.abs().max(v.y.abs()).max(v.z.abs());
         let distance = match self.to_render_space(*object) {
             Object::Mesh { transform, .. } => box_corners(&transform, reach)
@@ -143,7 +149,12 @@ impl<'a> Geometry<'a> {
             Object::Sphere { center, radius } => largest(center) + radius,
             Object::Plane { dist, .. } => dist.abs(),
         };
-        if distance.is_nan() || distance > FARTHEST {
+        distance.is_nan() || distance > FARTHEST
+    }
+
+    /// Reports an object, given in the world, that reaches too far.
+    pub(super) fn refuse_far(&self, object: &Object, reach: f64, span: Span, sink: &mut Sink) {
+        if self.is_far(object, reach) {
             sink.push(
                 Diagnostic::error(codes::GEOMETRY, span, "this is too large or too far away to be rendered")
                     .expected(format!("expected nothing farther than {FARTHEST:e} m from the camera")),
@@ -270,6 +281,9 @@ impl<'a> Geometry<'a> {
         let emits =
             |slot: &u32| materials.emission(&placed.materials[*slot as usize], context.sink).is_some();
         let lit: Vec<u32> = (0..count).filter(emits).collect();
+        if !lit.is_empty() && placed.movement.is_some() {
+            warn_of_standing(node, "what shines", context.sink);
+        }
         for &slot in &lit {
             // A mesh of one material is its own part.
             let mesh =
@@ -291,7 +305,10 @@ impl<'a> Geometry<'a> {
             _ => meshes.part(placed.mesh, Part::Without(lit)),
         };
         if let Some(mesh) = rest {
-            self.add(placed.object(mesh), &placed.name, placed.slots.iter().copied(), None);
+            let object = self.add(placed.object(mesh), &placed.name, placed.slots.iter().copied(), None);
+            // The parts of a model stay together.
+            let movement = placed.movement.filter(|_| count > 0 && mesh == placed.mesh);
+            self.movements.extend(movement.map(|movement| (object, movement.moved_by(-self.origin))));
         }
         Some(())
     }
@@ -322,7 +339,7 @@ impl<'a> Geometry<'a> {
         materials: &mut MaterialTable,
         context: &mut Context,
     ) -> Option<Placed> {
-        let transform = placement::transform(node, context.sink);
+        let (transform, movement) = placement::placement(node, context.sink);
         let name = node.text("mesh_name");
         let called = meshes.meant(&name.value);
         let mesh = meshes.get(&called, name.span, context)?;
@@ -339,14 +356,19 @@ impl<'a> Geometry<'a> {
             (named, slots)
         };
         let object = Object::Mesh { mesh: id, transform };
-        self.refuse_far(&object, mesh.reach, node.span, context.sink);
+        let at = |movement: &Movement, time| Object::Mesh { mesh: id, transform: movement.at(time) };
+        let moved = movement.iter().flat_map(|m| m.times().map(move |time| at(m, time)));
+        // Wherever it comes, it is told once.
+        if let Some(far) = std::iter::once(object).chain(moved).find(|place| self.is_far(place, mesh.reach)) {
+            self.refuse_far(&far, mesh.reach, node.span, context.sink);
+        }
         // Of lamps the triangles are looked at.
         if !is_lamp {
             self.warn_of_rounding(&object, mesh.reach, node.span, context.sink);
         }
         let (uv_names, materials) =
             (mesh.uv_names.clone(), named.into_iter().map(|(name, _)| name).collect());
-        Some(Placed { mesh: id, transform, name: called, slots, materials, uv_names })
+        Some(Placed { mesh: id, transform, movement, name: called, slots, materials, uv_names })
     }
 
     /// The parts of models whose materials emit.
@@ -362,6 +384,11 @@ impl<'a> Geometry<'a> {
     /// The objects, for building.
     pub(super) fn objects(&self) -> Vec<Object> {
         self.objects.clone()
+    }
+
+    /// How objects move that do, by number.
+    pub(super) fn take_movements(&mut self) -> Vec<(u32, Movement)> {
+        std::mem::take(&mut self.movements)
     }
 
     /// An object.

@@ -103,7 +103,7 @@ impl Lights {
         let mut first = None;
         for node in root.nodes("exit_portal") {
             first = first.or(Some(node.span));
-            let transform = placement::transform(node, context.sink);
+            let (transform, _) = placement::placement(node, context.sink);
             let name = node.text("mesh_name");
             let mesh = meshes.get(&name.value, name.span, context).filter(|mesh| !mesh.is_stand_in);
             // No cube lets in light as an opening does.

@@ -36,7 +36,7 @@ use indigo_decl::{Node, ResolveError, Resolved, Resolver, hint_of_shipped, repor
 use indigo_diag::{Diagnostic, Severity, Sink, SourceId, SourceMap, Span};
 use indigo_formats::FormatError;
 use indigo_formats::image::{self, Image};
-use indigo_geom::{Accel, BuildError, BuildOptions, Object, SurfacePoint};
+use indigo_geom::{Accel, BuildError, BuildOptions, Movement, Object, SurfacePoint};
 use indigo_math::Vec3d;
 use indigo_scatter::{Material, MediumStack};
 use indigo_spectrum::WavelengthSampler;
@@ -229,7 +229,8 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
     if context.sink.has_errors() || context.options.check_only || context.options.is_stopped() {
         return None;
     }
-    let accel = accel(meshes, geometry.objects(), threshold, caching, root.span, context)?;
+    let placed = (geometry.objects(), geometry.take_movements());
+    let accel = accel(meshes, placed, threshold, caching, root.span, context)?;
     let lights = lights.into_table(&geometry, &accel);
     let lamps: Vec<Option<u32>> = geometry.lights().collect();
     let (first_slot, slots, objects) = geometry.into_slots();
@@ -274,7 +275,7 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
 /// All geometry; `None` where it cannot be traced, after reporting why, or is not wanted any more.
 fn accel(
     meshes: MeshTable,
-    objects: Vec<Object>,
+    (objects, movements): (Vec<Object>, Vec<(u32, Movement)>),
     threshold: i64,
     caching: bool,
     span: Span,
@@ -287,7 +288,7 @@ fn accel(
     };
     let trees: &dyn indigo_geom::TreeStore =
         if caching { context.options.trees } else { &indigo_geom::NoStore };
-    match Accel::build(meshes.into_triangles(), objects, &options, trees) {
+    match Accel::build_moving(meshes.into_triangles(), objects, movements, &options, trees) {
         Ok(accel) => Some(accel),
         Err(BuildError::Stopped) => None,
         Err(error) => {

@@ -1,6 +1,7 @@
 //! Geometry and cameras: models by uid, their own materials, keyframes.
 
 use super::common::*;
+use indigo_math::Real;
 
 fn of(models: &str) -> String {
     let materials = ["m", "n"].map(|name| {
@@ -51,12 +52,36 @@ fn a_keyframe_takes_the_place_of_a_position_and_turns_what_has_been_turned() {
     };
     let turned = corner(&new(&key(0.0, "1 2 3", std::f64::consts::FRAC_PI_2)), &[]);
     assert!((turned[0] - 2.0).abs() < 1e-12 && turned[1].abs() < 1e-12, "{turned:?}");
-    // What moves stands where it is when the shutter opens, which is said once for all.
-    let moving = new(&(key(-1.0, "0 2 3", 0.0) + &key(1.0, "2 2 3", 0.0)));
-    let warning = "W0317 motion is not rendered: the model stands";
-    let twice = scene_with(&of(&format!("{moving}{moving}")), &[warning]);
-    let once = scene_with(&of(&format!("{old}{old}")), &[]);
-    assert_eq!(dump(&twice), dump(&once));
+    // What moves is where it is.
+    let keys = key(-1.0, "0 2 3", 0.0) + &key(1.0, "2 2 3", 0.0);
+    let moving = scene_with(&of(&new(&keys)), &[]);
+    let place = |time: Real| moving.accel.movement(0).expect("it moves").at(time).origin();
+    let camera = indigo_math::Vec3d::new(0.0, -2.0, 1.0);
+    assert_eq!([0.0, 0.5, 1.0].map(|t| (place(t) + camera).x), [1.0, 1.5, 2.0]);
+    // What shines stands where it is when the shutter opens, which is said once for all.
+    let shining = |model: &str| {
+        let lamp = "<diffuse><base_emission><constant><uniform><value>1</value></uniform></constant></base_emission></diffuse>";
+        let grey = "<name>m</name><diffuse><albedo_spectrum><uniform><value>0.25</value></uniform></albedo_spectrum></diffuse>";
+        of(&format!("{model}{model}")).replace(grey, &format!("<name>m</name>{lamp}"))
+    };
+    let warning = "W0317 motion is not rendered of what shines: the model stands";
+    let twice = scene_with(&shining(&new(&keys)), &[warning]);
+    assert!(twice.accel.movement(0).is_none() && twice.accel.movement(1).is_none());
+    assert_eq!(dump(&twice), dump(&scene_with(&shining(old), &[])));
+}
+
+#[test]
+fn a_camera_may_move() {
+    let keys = "<keyframe><time>0</time><pos>0 -2 1</pos></keyframe><keyframe><time>1</time><pos>0 -2 3</pos><rotation_quaternion><axis>0 0 1</axis><angle>0.2</angle></rotation_quaternion></keyframe>";
+    let scene = scene_with(&of(MODEL).replace("<pos>0 -2 1</pos>", keys), &[]);
+    let middle = indigo_math::Vec2::new(0.5, 0.5);
+    let ray = |time: Real| scene.camera.ray_at(middle, middle, time);
+    assert_eq!(ray(0.0), scene.camera.ray(middle, middle));
+    for (time, height, angle) in [(0.5, 1.0, 0.1), (1.0, 2.0, 0.2)] as [(Real, Real, Real); 2] {
+        let ray = ray(time);
+        assert!((ray.origin.z - height).abs() < 1e-5 && ray.origin.y.abs() < 1e-5, "{ray:?}");
+        assert!((ray.direction.x - angle.sin()).abs() < 1e-5, "{ray:?}");
+    }
 }
 
 /// What the shift does is told by the pictures of the camera's own tests.

@@ -3,7 +3,7 @@
 
 use super::common::*;
 use indigo_decl::{ResolveError, Resolved, Resolver};
-use indigo_scene::{LoadOptions, Loaded, load};
+use indigo_scene::{LoadOptions, Loaded, load, load_canonical};
 use std::fmt::Write as _;
 
 /// Files by their last parts, as a disk finds those that absolute paths of another machine lead to.
@@ -103,11 +103,21 @@ fn a_max_scene_with_pseudo_comments_windows_paths_and_many_instances() {
         ("materials.igs", materials.as_bytes().to_vec()),
         ("leaf.igmesh", igmesh(1, "Leaf Mat #12")),
     ];
-    let loaded = loaded(files);
-    assert_found(&loaded, &["W0103 <forwards> is given more than once"]);
-    let scene = loaded.scene.expect("a scene");
+    let found = loaded(files.clone());
+    assert_found(&found, &["W0103 <forwards> is given more than once"]);
+    let scene = found.scene.expect("a scene");
     assert_eq!(scene.stats().objects, 15_000);
     assert_eq!(scene.names.materials, ["Leaf Mat #12"]);
+    // Written anew it is one file, of which there is nothing to be told, and the same scene.
+    let mesh = files[3].clone();
+    let title = "A scene of 3ds Max";
+    let written =
+        load_canonical("scene.igs", &LoadOptions::new(&Folder(files)), title, &|path, _| Some(path.into()));
+    let text = written.text.expect("a scene without errors");
+    let again = loaded(vec![("scene.igs", text.into_bytes()), mesh]);
+    assert_found(&again, &[]);
+    let again = again.scene.expect("a scene");
+    assert!(dump(&again) == dump(&scene), "written anew it differs");
 }
 
 #[test]

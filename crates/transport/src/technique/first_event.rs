@@ -5,7 +5,6 @@ use super::media::WorldMemory;
 use super::path::Path;
 use crate::sampler::PrimarySample;
 use indigo_camera::CameraRay;
-use indigo_geom::Ray;
 use indigo_math::{Real, Vec3};
 use indigo_scatter::Mode;
 use indigo_scene::Scene;
@@ -33,8 +32,8 @@ pub fn first_event(
     lambda: &SampledWavelengths,
     camera: &CameraRay,
 ) -> Option<FirstEvent> {
-    let world = memory.world(scene, lambda);
-    let ray = Ray::new(camera.origin, camera.direction);
+    let world = memory.world(scene, lambda, camera.time);
+    let ray = world.ray(camera.origin, camera.direction);
     let mut flight = Flight::new(ray.o, ray, scene.camera_media_along(&ray));
     let mut number = 0;
     // The last surface that was met: where the event is on one, the one on which it is.
@@ -51,6 +50,6 @@ pub fn first_event(
         // Radiance that goes into a denser medium grows by the squared index: that is no reflectance.
         path.beta * next.weight * (vertex.compression(&world, next.wi) / ratio.mean())
     });
-    let depth_m = scene.camera.depth(vertex.point.p);
+    let depth_m = scene.camera.depth(vertex.point.p, camera.time);
     Some(FirstEvent { albedo, normal: vertex.normal(), depth_m, surface })
 }

@@ -7,7 +7,7 @@
 //! bounded weights: a lane's value is divided by the mean of all lanes' densities.
 
 use indigo_geom::{Hit, Ray};
-use indigo_math::{Real, elementary};
+use indigo_math::{Real, Vec3, elementary};
 use indigo_scatter::media::Coefficients;
 use indigo_scatter::{Interface, MediumId, MediumStack};
 use indigo_scene::Scene;
@@ -26,6 +26,8 @@ pub struct WorldMemory {
 pub(super) struct World<'a> {
     pub scene: &'a Scene,
     pub lambda: &'a SampledWavelengths,
+    /// When all of its rays are traced.
+    pub time: Real,
     /// Each medium is baked when it is first asked for.
     media: &'a [OnceCell<Coefficients>],
     rays: &'a Cell<u64>,
@@ -37,16 +39,27 @@ impl WorldMemory {
         self.rays.get()
     }
 
-    /// The scene at some wavelengths; what was known of others is forgotten.
+    /// The scene at some wavelengths and a time; what was known of others is forgotten.
     #[inline]
-    pub(super) fn world<'a>(&'a mut self, scene: &'a Scene, lambda: &'a SampledWavelengths) -> World<'a> {
+    pub(super) fn world<'a>(
+        &'a mut self,
+        scene: &'a Scene,
+        lambda: &'a SampledWavelengths,
+        time: Real,
+    ) -> World<'a> {
         self.media.clear();
         self.media.resize(scene.media.len(), OnceCell::new());
-        World { scene, lambda, media: &self.media, rays: &self.rays }
+        World { scene, lambda, time, media: &self.media, rays: &self.rays }
     }
 }
 
 impl World<'_> {
+    /// A whole half-line at the sample's time.
+    #[inline]
+    pub fn ray(&self, o: Vec3, d: Vec3) -> Ray {
+        Ray { time: self.time, ..Ray::new(o, d) }
+    }
+
     /// The first surface on a ray's way, if any.
     #[inline]
     pub fn intersect(&self, ray: &Ray) -> Option<Hit> {

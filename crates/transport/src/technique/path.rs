@@ -15,7 +15,7 @@ use super::visibility::way_to_light;
 use super::{DIRECT, End, Events, PathSample, Record};
 use crate::sampler::{Block, PrimarySample};
 use indigo_camera::CameraRay;
-use indigo_geom::{Ray, SurfacePoint};
+use indigo_geom::SurfacePoint;
 use indigo_light::Receiver;
 use indigo_math::{Real, Vec3};
 use indigo_scatter::Mode;
@@ -165,7 +165,7 @@ impl PathTracer {
         events: Events,
         record: &mut impl Record,
     ) -> PathSample {
-        trace(&self.memory.world(scene, lambda), sample, camera, events, record)
+        trace(&self.memory.world(scene, lambda, camera.time), sample, camera, events, record)
     }
 }
 
@@ -178,7 +178,7 @@ fn trace(
 ) -> PathSample {
     let scene = world.scene;
     let mut path = Path::new(camera.ratio);
-    let ray = Ray::new(camera.origin, camera.direction);
+    let ray = world.ray(camera.origin, camera.direction);
     let mut flight = Flight::new(ray.o, ray, scene.camera_media_along(&ray));
     let mut alpha = 0.0;
     let mut direct = None;

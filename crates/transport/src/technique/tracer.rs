@@ -48,12 +48,12 @@ impl Tracer {
         events: Events,
         record: &mut impl Record,
     ) -> Found {
-        let [.., wavelength, _] = numbers.block(Block::FILM);
+        let [.., wavelength, time] = numbers.block(Block::FILM);
         let lambda = scene.wavelengths.sample(wavelength);
         record.begin(position, &lambda);
         let [x, y, ..] = numbers.block(Block::LENS);
         let [d0, d1, ..] = numbers.block(Block::DIFFRACTION);
-        let camera = scene.camera.sample(position, Vec2::new(x, y), Vec2::new(d0, d1), &lambda);
+        let camera = scene.camera.sample(position, Vec2::new(x, y), Vec2::new(d0, d1), &lambda, time);
         let path = match self {
             Self::Path(path) => path.trace(scene, numbers, &lambda, &camera, events, record),
             Self::Bidirectional(b) => b.trace(scene, numbers, &lambda, &camera, events, record),
@@ -68,10 +68,10 @@ impl Tracer {
     /// is no pattern of diffraction that it could be spread by; what composes pictures over each other spreads the light
     /// of both, not the boundary between them. So it is the same whether light is deflected, filtered or neither.
     pub fn covers(&mut self, scene: &Scene, numbers: &mut impl PrimarySample, position: Vec2) -> bool {
-        let [.., wavelength, _] = numbers.block(Block::FILM);
+        let [.., wavelength, time] = numbers.block(Block::FILM);
         let lambda = scene.wavelengths.sample(wavelength);
         let [x, y, ..] = numbers.block(Block::LENS);
-        let camera = scene.camera.ray(position, Vec2::new(x, y));
+        let camera = scene.camera.ray_at(position, Vec2::new(x, y), time);
         let memory = match self {
             Self::Path(path) => path.memory(),
             Self::Bidirectional(b) => b.memory(),

@@ -47,8 +47,8 @@ impl Point {
 
     /// The ray that leaves in a direction.
     #[inline]
-    pub fn spawn(&self, scene: &Scene, direction: Vec3) -> Ray {
-        Ray::new(self.leave(scene, direction), direction)
+    pub fn spawn(&self, world: &World, direction: Vec3) -> Ray {
+        world.ray(self.leave(world.scene, direction), direction)
     }
 
     /// The ray that leaves in a direction through some media.
@@ -59,9 +59,9 @@ impl Point {
     pub fn spawn_into(&self, world: &World, direction: Vec3, media: &MediumStack) -> Ray {
         let scatters = world.has_media() && !world.medium(media.current()).scattering.is_black();
         if scatters && self.n != Vec3::ZERO {
-            return Ray::new(offset_origin(self.p, self.p_error, self.n, direction, 0.0), direction);
+            return world.ray(offset_origin(self.p, self.p_error, self.n, direction, 0.0), direction);
         }
-        self.spawn(world.scene, direction)
+        self.spawn(world, direction)
     }
 }
 
@@ -70,7 +70,7 @@ impl Point {
 pub(super) fn way_to_light(world: &World, from: &Vertex, light: &LightSample) -> Option<Passage> {
     match &light.point {
         None => {
-            let ray = from.point.spawn(world.scene, light.wi);
+            let ray = from.point.spawn(world, light.wi);
             passage(world, &ray, 1.0, from.media_towards(light.wi))
         }
         Some(to) => way(world, from, light.wi, &Point::of_light(to)),
@@ -80,7 +80,7 @@ pub(super) fn way_to_light(world: &World, from: &Vertex, light: &LightSample) ->
 /// The way from a point of the lens in direction `wi`, to a lamp or for ever; `None` where something stands between.
 #[inline]
 pub(super) fn way_from_lens(world: &World, origin: Vec3, wi: Vec3, to: Option<&Point>) -> Option<Passage> {
-    let (from, ray) = (Point::free(origin), Ray::new(origin, wi));
+    let (from, ray) = (Point::free(origin), world.ray(origin, wi));
     let media = world.scene.camera_media_along(&ray);
     match to {
         None => passage(world, &ray, 1.0, &media),
@@ -101,7 +101,7 @@ fn between(world: &World, from: &Point, media: &MediumStack, to: &Point) -> Opti
     let origin = from.leave(world.scene, along);
     let target = to.leave(world.scene, -along);
     // t = 1 is the target itself, which does not count.
-    let ray = Ray { o: origin, d: target - origin, t_min: 0.0, t_max: 1.0 };
+    let ray = Ray { t_max: 1.0, ..world.ray(origin, target - origin) };
     // The ray leaves its ends a little way off; what it passes counts from the ends themselves.
     let length = if world.has_media() { along.length() } else { 0.0 };
     passage(world, &ray, length, media)

@@ -61,7 +61,9 @@ mod tests {
             let mut counts = [0_u32; 100];
             for i in 0..n {
                 let mut choice = Choice::new(i as Real / n as Real);
-                counts.iter_mut().for_each(|count| *count += u32::from(choice.is_within(share)));
+                for count in &mut counts {
+                    *count += u32::from(choice.is_within(share));
+                }
             }
             let share = f64::from(share);
             let deviation = (f64::from(n) * share * (1.0 - share)).sqrt();

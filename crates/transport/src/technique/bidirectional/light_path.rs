@@ -9,7 +9,6 @@ use crate::technique::mis::{Prefix, Step, Weight};
 use crate::technique::vertex::Vertex;
 use crate::technique::visibility::{Point, way};
 use crate::technique::{End, Part, Record, Splat};
-use indigo_geom::Ray;
 use indigo_light::Emission;
 use indigo_math::{Real, Vec3};
 use indigo_scatter::{MediumStack, Mode};
@@ -155,7 +154,7 @@ impl LightPath {
             return;
         }
         let Some(passage) = way(world, &light.vertex, wi, &Point::free(origin)) else { return };
-        let pdf = scene.camera.pdf_direction(-wi, distance);
+        let pdf = scene.camera.pdf_direction(-wi, distance, world.time);
         let found = light.vertex.reach(wi) * passage.free * (pdf * self.film_density / distance2);
         let prefix = self.prefix_towards(i, wi);
         let others = prefix.others(found, scattered.pdf_rev);
@@ -176,10 +175,10 @@ fn leave_lamp(world: &World, emission: &Emission) -> Flight {
     let (Some(point), Some(lamp)) = (&emission.point, emission.lamp()) else {
         let origin =
             if world.scene.lights.portals().is_some() { entry(world, emission) } else { emission.origin };
-        return Flight::new(origin, Ray::new(origin, emission.direction), MediumStack::AIR);
+        return Flight::new(origin, world.ray(origin, emission.direction), MediumStack::AIR);
     };
     let (start, direction) = (Point::of_light(point), emission.direction);
-    let media = world.scene.media_at_lamp(lamp, start.spawn(world.scene, direction).o, direction);
+    let media = world.scene.media_at_lamp(lamp, start.spawn(world, direction).o, direction, world.time);
     Flight::new(point.p, start.spawn_into(world, direction, &media), media)
 }
 
@@ -188,7 +187,7 @@ fn leave_lamp(world: &World, emission: &Emission) -> Flight {
 /// A point beyond the whole scene would do, but for rounding: from kilometres away single precision may miss the portal
 /// by which the light was drawn, and only those rays are lost, none won. So the point is as near as can be.
 fn entry(world: &World, emission: &Emission) -> Vec3 {
-    let mut back = Ray::new(emission.origin, -emission.direction);
+    let mut back = world.ray(emission.origin, -emission.direction);
     let mut origin = back.o;
     while let Some(hit) = world.intersect(&back) {
         // Beyond it by the magnitude of its coordinates: their rounding does not matter then.

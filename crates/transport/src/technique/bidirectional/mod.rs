@@ -22,7 +22,6 @@ use super::vertex::Vertex;
 use super::{DIRECT, End, Events, PathSample, Record, Splat};
 use crate::sampler::{Block, PrimarySample};
 use indigo_camera::{CameraRay, FilmPosition};
-use indigo_geom::Ray;
 use indigo_light::Receiver;
 use indigo_math::{Real, Vec3};
 use indigo_scatter::Mode;
@@ -52,14 +51,14 @@ impl Sample<'_> {
     /// Where the camera's ray begins that sees a point: at the sample's point of the lens, if there is one.
     #[inline]
     fn origin_towards(&self, p: Vec3) -> Vec3 {
-        self.world.scene.camera.origin_towards(p, self.camera.origin)
+        self.world.scene.camera.origin_towards(p, self.camera.origin, self.camera.time)
     }
 
     /// Where light falls that comes from a unit direction to a point where rays begin, and is deflected there;
     /// `None` where that is beside the film.
     #[inline]
     fn on_film(&self, origin: Vec3, from: Vec3) -> Option<FilmPosition> {
-        let film = self.world.scene.camera.film_position(origin, from)?;
+        let film = self.world.scene.camera.film_position(origin, from, self.camera.time)?;
         let position = film.position - self.camera.offset;
         let is_on = |x: Real| (0.0..=1.0).contains(&x);
         (is_on(position.x) && is_on(position.y)).then_some(FilmPosition { position, ..film })
@@ -107,7 +106,7 @@ impl Bidirectional {
         events: Events,
         record: &mut impl Record,
     ) -> PathSample {
-        let sample = Sample { world: self.memory.world(scene, lambda), camera, events };
+        let sample = Sample { world: self.memory.world(scene, lambda, camera.time), camera, events };
         self.light_path.trace(&sample, numbers, record);
         trace_camera(&sample, &self.light_path, numbers, record)
     }
@@ -126,10 +125,10 @@ fn trace_camera(
     let kind = |events: u32| usize::from(events > DIRECT);
     let mut beta = SampledSpectrum::splat(camera.importance).times(camera.ratio);
     // At a distance of 1 a density over area is the same number as one over solid angle.
-    let pdf = scene.camera.pdf_direction(camera.direction, 1.0) * light_path.film_density;
+    let pdf = scene.camera.pdf_direction(camera.direction, 1.0, camera.time) * light_path.film_density;
     let mut step = Step::from_camera(pdf, camera.ratio, scene.camera.is_parallel());
     let mut from = Receiver::all_round(camera.origin);
-    let ray = Ray::new(camera.origin, camera.direction);
+    let ray = world.ray(camera.origin, camera.direction);
     let mut flight = Flight::new(ray.o, ray, scene.camera_media_along(&ray));
     let (mut alpha, mut depth, mut number) = (0.0, 0, 0);
     // By what roulette divides the throughput, so that it sees losses alone.

@@ -49,10 +49,11 @@ impl Seen {
     pub fn counted_pdf(&self, sample: &Sample) -> Real {
         let Sample { world, camera, .. } = sample;
         let (lens, film) = (&world.scene.camera, &world.scene.film.size);
-        let sharp = lens.pdf_direction(self.wi, self.distance) * self.chance / self.pdf;
+        let sharp = lens.pdf_direction(self.wi, self.distance, world.time) * self.chance / self.pdf;
         let pixels = film.internal_width() as Real * film.internal_height() as Real;
         let offset_density = if camera.offset_disc <= sharp { Real::INFINITY } else { camera.offset_density };
-        let spread = lens.blur(self.wi, self.distance).max(1.0 / pixels).recip().min(offset_density);
+        let spread =
+            lens.blur(self.wi, self.distance, world.time).max(1.0 / pixels).recip().min(offset_density);
         // Without density there is nothing to cover, and nothing to count.
         if sharp * spread < 1.0 { self.pdf * (1.0 - sharp * spread) } else { 0.0 }
     }
@@ -89,7 +90,7 @@ pub(super) fn join_source<R: Record>(
     }
     let to = view.point.as_ref().map(Point::of_light);
     let passage = way_from_lens(world, origin, view.wi, to.as_ref())?;
-    let pdf = scene.camera.pdf_direction(view.wi, seen.distance);
+    let pdf = scene.camera.pdf_direction(view.wi, seen.distance, world.time);
     let weight = Weight::straight(camera.ratio, passage.free * (pdf * film_density), counted);
     let arrived = light.times(camera.ratio) * passage.transmittance;
     let value = arrived * (film.importance * pdf / view.pdf);
