@@ -1,6 +1,7 @@
 //! Materials: one file each, and one line each in the list below.
 
 pub mod blend;
+mod declare;
 pub mod diffuse;
 pub mod diffuse_transmitter;
 pub mod fields;
@@ -11,10 +12,12 @@ pub mod oren_nayar;
 pub mod phong;
 pub mod specular;
 
+pub use self::declare::{MATERIAL, MATERIAL_KIND, MATERIAL_LATER};
+
 use self::fields::BUMP_MAP;
 use crate::media::{Medium, MediumId};
 use crate::scatter::{Crossing, LocalSample, Scatter};
-use indigo_decl::{Alternatives, Block, Field, Kind, Later, Node, Presence};
+use indigo_decl::{Block, Node};
 use indigo_diag::Sink;
 use indigo_math::{Real, Vec2, Vec3};
 use indigo_spectrum::{LanePdf, SampledSpectrum, SampledWavelengths, Spectrum};
@@ -364,46 +367,3 @@ impl Material {
         matches!(self, Self::Null)
     }
 }
-
-/// The kinds that a material may be of.
-pub const MATERIAL_KIND: Alternatives = Alternatives {
-    later: &[Later::new("fabric", "4.0"), Later::new("external", "3.0")],
-    stand_in: "a grey diffuse surface",
-    ..Alternatives::new("kind of material", KINDS_AND_LATER)
-};
-
-/// What later versions put beside the kind.
-pub const MATERIAL_LATER: &[Later] = &[
-    Later::new("metadata", "3.0"),
-    Later::new("backface_emit", "4.0").unless("false"),
-    Later::new("emission_sampling_factor", "4.0").unless("1"),
-    Later::new("invisible_to_camera", "4.0").unless("false"),
-    Later::new("shadow_catcher", "4.0").unless("false"),
-];
-
-/// The declaration of `material`.
-pub static MATERIAL: Block = Block::new(
-    "material",
-    "Defines a material: a name and one kind. Where it stands in the scene does not matter.",
-    &[
-        Field::new("name", Kind::Name, Presence::Required, "Name by which meshes and blends refer to it."),
-        Field::new(
-            "uid",
-            Kind::Text,
-            Presence::Optional,
-            "A number by which later versions refer to it (`material_uid`, `a_uid`).",
-        ),
-    ],
-)
-.with_alternatives(MATERIAL_KIND)
-.with_later(MATERIAL_LATER)
-.with_example(
-    "<material>
-    <name>white</name>
-    <diffuse>
-        <albedo_spectrum>
-            <uniform><value>0.8</value></uniform>
-        </albedo_spectrum>
-    </diffuse>
-</material>",
-);

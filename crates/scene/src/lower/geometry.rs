@@ -1,5 +1,8 @@
 //! Placed objects: models, spheres and planes, with the materials of their slots.
 
+mod slots;
+
+use self::slots::slot_names;
 use super::emission::warn_of_darkness;
 use super::keyframes::warn_of_standing;
 use super::materials::{MaterialTable, UvSets};
@@ -47,37 +50,6 @@ impl Placed {
     fn object(&self, mesh: u32) -> Object {
         Object::Mesh { mesh, transform: self.transform }
     }
-}
-
-/// Names of the materials of a placed mesh and where they are named: those of the model itself, by their order in the mesh's
-/// file, before those of the mesh.
-fn slot_names(node: &Node, mesh: &Mesh, sink: &mut Sink) -> Vec<(String, Span)> {
-    let mut slots = mesh.slots.clone();
-    // Mesh lights have no such list.
-    let may_list = node.block.declares("materials");
-    let Some(list) = (if may_list { node.node("materials") } else { None }) else { return slots };
-    let own: Vec<(String, Span)> =
-        list.texts("material_name").map(|name| (name.value.to_owned(), name.span)).collect();
-    let mut missing = None;
-    for (i, slot) in slots.iter_mut().enumerate() {
-        let number = mesh.slot_numbers.get(i).map_or(i, |number| *number as usize);
-        match own.get(number) {
-            Some(own) => slot.clone_from(own),
-            None => missing = missing.max(Some(number)),
-        }
-    }
-    if let Some(number) = missing {
-        let (needed, lists) = (number + 1, own.len());
-        sink.push(
-            Diagnostic::warning(
-                codes::MATERIAL_COUNT,
-                list.span,
-                format!("the mesh has {needed} materials, and <materials> lists {lists}"),
-            )
-            .note("the others are those that the mesh names"),
-        );
-    }
-    slots
 }
 
 /// All objects in render space.
