@@ -5,8 +5,8 @@ use indigo_decl::{Block, Field, Kind, Later, Presence, Range};
 /// The declaration of `tex_coord_generation`.
 pub static TEX_COORD_GENERATION: Block = Block::new(
     "tex_coord_generation",
-    "How texture coordinates are made. On a surface they are those of the mesh, whatever is said here, with a warning where \
-     that makes a difference; round a background they are `spherical`.",
+    "How texture coordinates are made. On a surface they are those of the mesh, which `uv` transforms; where `spherical` ones \
+     are asked for, those of the mesh stand in, with a warning. Round a background they are `spherical`.",
     &[
         Field::new("uv", Kind::Block(&UV), Presence::Optional, "Those of the mesh, transformed."),
         Field::new("spherical", Kind::Block(&SPHERICAL), Presence::Optional, "By latitude and longitude."),
@@ -17,13 +17,18 @@ pub static TEX_COORD_GENERATION: Block = Block::new(
 /// The declaration of `uv`.
 pub static UV: Block = Block::new(
     "uv",
-    "The texture coordinates of the mesh, transformed. Nothing but the identity is rendered.",
+    "The texture coordinates of the mesh, transformed: the map is read at `matrix` times (u, v), plus `translation`.",
     &[
-        Field::new("matrix", Kind::Reals, Presence::Optional, "A matrix, row after row."),
-        Field::new("translation", Kind::Reals, Presence::Optional, "What is added then."),
+        Field::new(
+            "matrix",
+            Kind::Reals,
+            Presence::Optional,
+            "A matrix of two rows of two, row after row. The identity where it is left out.",
+        ),
+        Field::new("translation", Kind::Reals, Presence::Optional, "Two numbers that are added then."),
     ],
 )
-.with_example("<uv><matrix>1 0 0 1</matrix><translation>0 0</translation></uv>");
+.with_example("<uv><matrix>2 0 0 2</matrix><translation>0.5 0</translation></uv>");
 
 /// The declaration of `spherical` in `tex_coord_generation`.
 pub static SPHERICAL: Block = Block::new(

@@ -2,8 +2,10 @@
 
 pub mod declare;
 mod map;
+mod mapping;
 
 pub use map::{Curve, Texture};
+pub use mapping::Mapping;
 
 /// Number of a texture in a scene's list.
 pub type TextureId = u32;

@@ -1,5 +1,6 @@
 //! Image maps: texels in the width they came in, read bilinearly with wrap-around.
 
+use crate::mapping::Mapping;
 use indigo_formats::image::{Image, Pixels};
 use indigo_math::{Real, Vec2};
 use std::sync::Arc;
@@ -43,6 +44,7 @@ pub struct Texture {
     table: Arc<[f32]>,
     /// Which uv set of the mesh it is laid on by.
     pub uv_set: u32,
+    mapping: Mapping,
 }
 
 impl Texture {
@@ -67,7 +69,19 @@ impl Texture {
             image,
             table,
             uv_set,
+            mapping: Mapping::IDENTITY,
         }
+    }
+
+    /// The same laid on by transformed coordinates.
+    #[must_use]
+    pub fn with_mapping(self, mapping: Mapping) -> Self {
+        Self { mapping, ..self }
+    }
+
+    /// How coordinates of the mesh become those of the map.
+    pub fn mapping(&self) -> Mapping {
+        self.mapping
     }
 
     /// Width and height in texels.
@@ -112,12 +126,13 @@ impl Texture {
         meant as f64 / (f64::from(self.width) * f64::from(self.height))
     }
 
-    /// Linear RGB at texture coordinates.
+    /// Linear RGB at texture coordinates of the mesh.
     ///
-    /// (0, 0) is the lower left corner of the image, and coordinates wrap round. Texels stand at
+    /// Transformed, (0, 0) is the lower left corner of the image, and coordinates wrap round. Texels stand at
     /// the corners of a grid of `width` by `height` cells, and between them values are bilinear.
     #[inline]
     pub fn rgb(&self, uv: Vec2) -> [Real; 3] {
+        let uv = self.mapping.of(uv);
         let (x0, x1, fx) = cell(uv.x, self.width);
         let (y0, y1, fy) = cell(uv.y, self.height);
         let (t00, t10) = (self.texel(x0, y0), self.texel(x1, y0));
@@ -136,13 +151,14 @@ impl Texture {
         (r + g + b) / 3.0
     }
 
-    /// How the scalar of the map changes with u and with v, per unit of each.
+    /// How the scalar of the map changes with u and with v of the mesh, per unit of each.
     ///
     /// Bilinear values have slopes that jump from texel to texel, and a bump map would show its grid. So the
     /// slope is that of the biquadratic B-spline of the texels, which is the bilinear surface averaged over the
     /// width of a texel each way: it runs on evenly, and ramps keep their slope exactly.
     #[inline]
     pub fn gradient(&self, uv: Vec2) -> [Real; 2] {
+        let uv = self.mapping.of(uv);
         let (columns, x) = nearest(uv.x, self.width);
         let (rows, y) = nearest(uv.y, self.height);
         let (wx, wy) = (spline(x), spline(y));
@@ -156,7 +172,7 @@ impl Texture {
                 slope[1] += value * wx[i] * sy[j];
             }
         }
-        [slope[0] * self.width as Real, slope[1] * self.height as Real]
+        self.mapping.slope([slope[0] * self.width as Real, slope[1] * self.height as Real])
     }
 
     /// The texel of a column and of a row counted from the bottom.
@@ -295,6 +311,37 @@ mod tests {
         let lower = ((std::f64::consts::PI / 16.0).sin() / (std::f64::consts::PI / 16.0)).powi(2);
         let slope = at(0.0) as f64 / (std::f64::consts::TAU * lower);
         assert!((slope - 1.0).abs() < 0.02, "{slope}");
+    }
+
+    /// A map that is turned, sheared and moved is read there, and its slopes are those of its values.
+    #[test]
+    fn coordinates_are_transformed() {
+        let waves = |x: u32, y: u32| (x as f32 / 3.0).sin() + (y as f32 / 5.0).cos();
+        let image = Image {
+            width: 64,
+            height: 64,
+            channels: 1,
+            pixels: Pixels::F32((0..64 * 64).map(|i| waves(i % 64, i / 64)).collect()),
+            primaries: None,
+            notes: vec![],
+        };
+        let plain = texture(image, Curve::IDENTITY);
+        let mapping = Mapping { matrix: [0.0, -0.5, 0.25, 0.125], translation: [0.5, 0.25] };
+        let mapped = plain.clone().with_mapping(mapping);
+        for (u, v) in [(0.5, 0.25), (0.3, 0.4), (0.9, 0.7)] {
+            let expected = Vec2::new(-0.5 * v + 0.5, 0.25 * u + 0.125 * v + 0.25);
+            assert_eq!(mapped.rgb(Vec2::new(u, v)), plain.rgb(expected));
+            // Of a bilinear map slopes are smoothed, so it is the smooth slope that is compared.
+            let [x, y] = plain.gradient(expected);
+            assert_eq!(mapped.gradient(Vec2::new(u, v)), [0.25 * y, -0.5 * x + 0.125 * y]);
+            let h = 0.05;
+            let at = |u: Real, v: Real| mapped.scalar(Vec2::new(u, v));
+            let numeric =
+                [(at(u + h, v) - at(u - h, v)) / (2.0 * h), (at(u, v + h) - at(u, v - h)) / (2.0 * h)];
+            for (slope, numeric) in mapped.gradient(Vec2::new(u, v)).into_iter().zip(numeric) {
+                assert!((slope - numeric).abs() < 0.1 * numeric.abs() + 0.1, "{slope} and {numeric}");
+            }
+        }
     }
 
     /// A map of scalars in colour is the grey map of the means: its values and its slopes.

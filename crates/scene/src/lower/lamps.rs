@@ -13,7 +13,7 @@ use indigo_light::{AreaLight, Profile};
 use indigo_math::{Vec2, Vec3d};
 use indigo_spectrum::observer::LUMENS_PER_WATT;
 use indigo_spectrum::{Spectrum, read};
-use indigo_texture::Texture;
+use indigo_texture::{Mapping, Texture};
 use std::f64::consts::PI;
 
 /// The part of its area that a lamp or portal may lose or gain by rounding, without a word: what can hardly be seen.
@@ -127,9 +127,11 @@ pub(super) fn mesh_light(
 /// The lamp with an image map; without it where the mesh lacks the uv set, which was reported.
 fn with_texture(lamp: AreaLight, texture: Texture, shape: &Shape) -> AreaLight {
     let Some(uvs) = shape.mesh.uv_sets().get(texture.uv_set as usize) else { return lamp };
-    let corner = |i: u32| Vec2::from(uvs[i as usize].map(f64::from));
+    // The lamp looks its triangles up in the map, and so is given where they lie there.
+    let mapping = texture.mapping();
+    let corner = |i: u32| mapping.of(Vec2::from(uvs[i as usize].map(f64::from)));
     let uvs: Vec<[Vec2<f64>; 3]> = shape.mesh.triangles().iter().map(|t| t.map(corner)).collect();
-    lamp.with_texture(texture, &uvs)
+    lamp.with_texture(texture.with_mapping(Mapping::IDENTITY), &uvs)
 }
 
 /// A part of a model whose material emits.

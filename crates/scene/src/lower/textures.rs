@@ -5,9 +5,9 @@ use crate::codes;
 use indigo_decl::Node;
 use indigo_diag::{Diagnostic, SourceId, Span};
 use indigo_formats::image::{Image, Pixels};
-use indigo_math::Mat3;
+use indigo_math::{Float, Mat3, Real};
 use indigo_spectrum::adaptation::rec709_of;
-use indigo_texture::{Curve, Texture, TextureId};
+use indigo_texture::{Curve, Mapping, Texture, TextureId};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -18,8 +18,8 @@ pub(super) struct TextureTable {
     /// Where a path named in a file was found.
     found: HashMap<(SourceId, String), String>,
     images: HashMap<String, Arc<Image>>,
-    /// Textures by file, curve (exponent, a, b, c) and uv set.
-    by_content: HashMap<(String, [u64; 4], u32), TextureId>,
+    /// Textures by file, curve (exponent, a, b, c), uv set and mapping.
+    by_content: HashMap<(String, [u64; 4], u32, [u64; 6]), TextureId>,
 }
 
 impl TextureTable {
@@ -27,15 +27,15 @@ impl TextureTable {
     /// in.
     pub(super) fn get(&mut self, node: &Node, uv_set: u32, context: &mut Context) -> TextureId {
         let path = node.text("path");
-        warn_of_generated_coordinates(node, context);
+        let mapping = mapping(node, context);
         let [exponent, a, b, c] = ["exponent", "a", "b", "c"].map(|field| node.real(field));
         let file = self.load(&path.value, path.span, context);
-        let key = (file, [exponent, a, b, c].map(f64::to_bits), uv_set);
+        let key = (file, [exponent, a, b, c].map(f64::to_bits), uv_set, bits(&mapping));
         if let Some(&id) = self.by_content.get(&key) {
             return id;
         }
         let image = self.images[&key.0].clone();
-        self.textures.push(Texture::new(image, Curve { exponent, a, b, c }, uv_set));
+        self.textures.push(Texture::new(image, Curve { exponent, a, b, c }, uv_set).with_mapping(mapping));
         let id = (self.textures.len() - 1) as TextureId;
         self.by_content.insert(key, id);
         id
@@ -75,22 +75,42 @@ impl TextureTable {
     }
 }
 
-/// Says so where texture coordinates are not to be those of the mesh: that is not rendered.
-fn warn_of_generated_coordinates(node: &Node, context: &mut Context) {
-    let Some(generation) = node.node("tex_coord_generation") else { return };
-    let is_identity = |uv: &Node| {
-        let matrix = uv.value("matrix").map(|_| uv.reals("matrix").value);
-        let translation = uv.value("translation").map(|_| uv.reals("translation").value);
-        let is_one =
-            |m: &Vec<f64>| *m == [1.0, 0.0, 0.0, 1.0] || *m == [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
-        matrix.as_ref().is_none_or(is_one) && translation.iter().flatten().all(|v| *v == 0.0)
-    };
-    let transformed = generation.node("uv").is_some_and(|uv| !is_identity(uv));
-    if transformed || generation.node("spherical").is_some() {
-        let message = "<tex_coord_generation> is of a later format version (2.0) and not rendered: the coordinates of the mesh stand in";
-        context.sink.push_or_count(Diagnostic::warning(codes::STANDS_IN, generation.span, message));
+fn bits(mapping: &Mapping) -> [u64; 6] {
+    let ([a, b, c, d], [x, y]) = (mapping.matrix, mapping.translation);
+    [a, b, c, d, x, y].map(|v| v.to_f64().to_bits())
+}
+
+/// How coordinates of the mesh become those of the map.
+fn mapping(node: &Node, context: &mut Context) -> Mapping {
+    let Some(generation) = node.node("tex_coord_generation") else { return Mapping::IDENTITY };
+    if let Some(spherical) = generation.node("spherical") {
+        spherical.disregard();
+        let message = "<spherical> coordinates are of a later format version (2.0) and not rendered: those of the mesh stand in";
+        context.sink.push_or_count(Diagnostic::warning(codes::STANDS_IN, spherical.span, message));
     }
-    generation.disregard();
+    let Some(uv) = generation.node("uv") else { return Mapping::IDENTITY };
+    Mapping {
+        matrix: numbers(uv, "matrix", context).unwrap_or(Mapping::IDENTITY.matrix),
+        translation: numbers(uv, "translation", context).unwrap_or(Mapping::IDENTITY.translation),
+    }
+}
+
+/// The numbers of a field, of which there have to be so many.
+fn numbers<const N: usize>(node: &Node, field: &str, context: &mut Context) -> Option<[Real; N]> {
+    node.value(field)?;
+    let given = node.reals(field);
+    let numbers = <[f64; N]>::try_from(given.value.as_slice());
+    if numbers.is_err() {
+        context.sink.push(
+            Diagnostic::error(
+                indigo_decl::codes::WRONG_TYPE,
+                given.span,
+                format!("a {field} of {} numbers", given.value.len()),
+            )
+            .expected(format!("expected {N} numbers")),
+        );
+    }
+    Some(numbers.ok()?.map(Real::from_f64))
 }
 
 fn decode(file: &str, bytes: &[u8], span: Span, context: &mut Context) -> Image {

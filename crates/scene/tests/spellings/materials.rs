@@ -1,6 +1,7 @@
 //! Materials: `constant`, `texture`, lists of textures, new names, uids.
 
 use super::common::*;
+use indigo_scene::Scene;
 
 /// A scene with a material `m` of a kind.
 fn of(kind: &str) -> String {
@@ -68,6 +69,62 @@ fn textures_are_named_by_their_number_in_the_list_or_stand_in_their_place() {
     let beyond = "<diffuse><texture><path>a.bmp</path></texture><albedo><texture><texture_index>1</texture_index></texture></albedo></diffuse>";
     let found = findings(&loaded(&of(beyond)));
     assert!(found.iter().any(|(_, text)| text.starts_with("E0203 <texture_index>")), "{found:?}");
+}
+
+/// Those of the mesh by a matrix and a translation: a map that is turned, on a material and on a lamp.
+#[test]
+fn texture_coordinates_may_be_transformed() {
+    let textured = |uv: &str| {
+        let generation = format!("<tex_coord_generation>{uv}</tex_coord_generation>");
+        format!(
+            "<diffuse><albedo_texture><uv_set>albedo</uv_set><path>a.bmp</path>{generation}</albedo_texture></diffuse>"
+        )
+    };
+    let mapped = |matrix: &str, translation: &str| {
+        textured(&format!("<uv><matrix>{matrix}</matrix><translation>{translation}</translation></uv>"))
+    };
+    let turned = mapped("0 -0.5 0.25 0.125", "0.5 0.25");
+    for same in ["", "<uv/>", "<uv><matrix>1 0 0 1</matrix></uv>", "<uv><translation>0 0</translation></uv>"]
+    {
+        assert_same_kinds([&textured(""), &textured(same), &turned]);
+    }
+    let [plain, turned] = [textured(""), turned].map(|kind| scene_with(&of(&kind), &[]));
+    let at =
+        |scene: &Scene, u: f32, v: f32| scene.textures[0].rgb([u, v].map(indigo_math::Real::from).into());
+    assert_eq!(at(&turned, 0.5, 0.25), at(&plain, 0.375, 0.40625));
+    assert_ne!(at(&turned, 0.5, 0.25), at(&plain, 0.5, 0.25));
+    // A lamp whose map is moved by half is one whose mesh has its coordinates there.
+    let lamp = |mesh: &str, uv: &str| {
+        let map = format!(
+            "<texture><uv_set>albedo</uv_set><path>a.bmp</path><tex_coord_generation>{uv}</tex_coord_generation></texture>"
+        );
+        let spectrum = "<spectrum><uniform><value>5</value></uniform></spectrum>";
+        let light = format!(
+            "<meshlight><pos>1 2 3</pos><scale>1</scale><mesh_name>tri</mesh_name>{spectrum}{map}</meshlight>"
+        );
+        scene_with(&format!("{CAMERA}{mesh}{light}{}{}", material("m", GREY), material("n", GREY)), &[])
+    };
+    let moved = MESH.replace("uv0=\"0 ", "uv0=\"0.5 ").replace("uv0=\"1 ", "uv0=\"1.5 ");
+    let move_by_half = "<uv><translation>0.5 0</translation></uv>";
+    let lights = |scene: Scene| format!("{:?}", scene.lights);
+    assert_eq!(lights(lamp(MESH, move_by_half)), lights(lamp(&moved, "")));
+    assert_ne!(lights(lamp(MESH, move_by_half)), lights(lamp(MESH, "")));
+}
+
+#[test]
+fn texture_coordinates_that_are_not_rendered_or_not_sound_are_told() {
+    let textured = |generation: &str| {
+        let map = format!("<path>a.bmp</path><tex_coord_generation>{generation}</tex_coord_generation>");
+        of(&format!("<diffuse><albedo_texture>{map}</albedo_texture></diffuse>"))
+    };
+    scene_with(&textured("<spherical/>"), &["W0320 <spherical> coordinates"]);
+    for (uv, message) in [
+        ("<matrix>1 0 0</matrix>", "E0202 a matrix of 3 numbers"),
+        ("<translation>1 0 0</translation>", "E0202 a translation of 3 numbers"),
+    ] {
+        let found = findings(&loaded(&textured(&format!("<uv>{uv}</uv>"))));
+        assert!(found.len() == 1 && found[0].1.starts_with(message), "{found:?}");
+    }
 }
 
 #[test]
