@@ -1,6 +1,7 @@
 //! What is made larger, step by step.
 
-use crate::validate::agreement::{exr_of, wall};
+use crate::validate::agreement::wall;
+use crate::validate::hung;
 use crate::validate::oracles::{AROUND, material};
 use crate::validate::shapes::{Mesh, mesh_light, model};
 use crate::validate::text::{ONE_PIXEL, background, flat_camera, grey, scene_file, settings, uniform};
@@ -125,7 +126,10 @@ fn texels() -> Vec<Point> {
         let scene = seen(128, &[material("mapped", kind), wall([0.0, -1.0, 0.0], "mapped", 1.0)]);
         let value =
             |x: usize, y: usize| if (x * 8 / side + y * 8 / side).is_multiple_of(2) { 0.9 } else { 0.3 };
-        Point { files: vec![("map.exr".into(), exr_of(side, value))], ..point((side * side) as f64, scene) }
+        Point {
+            files: vec![("map.exr".into(), hung::picture([side; 2], value))],
+            ..point((side * side) as f64, scene)
+        }
     };
     [64, 512, 2048].map(of).into()
 }

@@ -4,20 +4,22 @@
 //! the lamps and connects the two; Metropolis sampling walks among the paths of either. They share models and geometry,
 //! but hardly any density: what one gets wrong, another does not.
 
-use exr::prelude::{Image, SpecificChannels, WritableImage};
-
 use super::check::{ALL, Check, Quantity, Target};
 use super::cross::scenes::{self, Entry};
 use super::cross::stage;
+use super::hung;
 use super::oracles::{AROUND, material};
-use super::shapes::{Mesh, add, cross, mesh_light, model};
+use super::shapes::{Mesh, Point, mesh_light, model};
 use super::text::{ONE_PIXEL, basic, flat_camera, grey, medium, scene_file, settings, specular, uniform};
 
 const GROUP: &str = "One picture by all ways";
 /// Samples per pixel of each render.
 const SAMPLES: u32 = 64;
+/// Share of its light that half of the blocks must show: Metropolis sampling gathers little in dark corners.
+const BLOCKS: f64 = 0.5;
 /// The scenes beside Mitsuba that are rendered by all ways in the quick form, too.
-const QUICK: &[&str] = &["coloured box", "smooth glass", "fog, Henyey and Greenstein", "thin lens", "lamps"];
+const QUICK: &[&str] =
+    &["coloured box", "smooth glass", "fog, Henyey and Greenstein", "thin lens", "lamps", "environment map"];
 
 /// All of them.
 pub fn all() -> Vec<Check> {
@@ -31,7 +33,8 @@ pub fn all() -> Vec<Check> {
 }
 
 fn by_all_ways(name: &str, about: &str, scene: String) -> Check {
-    let check = Check::new(GROUP, name, about, scene).unit(stage::UNIT).by(ALL).effort(SAMPLES, 1e-1);
+    let mut check = Check::new(GROUP, name, about, scene).unit(stage::UNIT).by(ALL).effort(SAMPLES, 1e-1);
+    check.blocks = BLOCKS;
     check.row("picture", Quantity::Y, None, Target::First(0.0))
 }
 
@@ -56,22 +59,9 @@ fn room(materials: &[String], [floor, back, left, right]: [&str; 4], things: &[S
 }
 
 /// A wall of the room, on which a map is shown so many times along each side.
-pub fn wall(towards: [f64; 3], material: &str, times: f64) -> String {
-    let u = if towards[0].abs() > 0.5 { [0.0, 1.0, 0.0] } else { [1.0, 0.0, 0.0] };
-    let v = cross(towards, u);
-    let corner = |[a, b]: [f64; 2]| {
-        let [x, y, z] = add(towards.map(|x| -x), add(u.map(|x| x * a), v.map(|x| x * b)));
-        let [s, t] = [a, b].map(|c| 0.5 * times * (c + 1.0));
-        format!("<vertex pos=\"{x} {y} {z}\" uv0=\"{s} {t}\"/>")
-    };
-    let vertices = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(corner).concat();
+pub fn wall(towards: Point, material: &str, times: f64) -> String {
     let name = format!("wall {} {} {}", towards[0], towards[1], towards[2]);
-    let set = "<expose_uv_set><index>0</index><name>default</name></expose_uv_set>";
-    format!(
-        "<mesh><name>{name}</name><normal_smoothing>false</normal_smoothing><embedded>{set}{vertices}<triangle_set>\
-         <material_name>{material}</material_name><tri>0 1 2</tri><tri>0 2 3</tri></triangle_set></embedded></mesh>{}",
-        model(&name)
-    )
+    hung::mesh(&name, material, hung::corners(towards.map(|x| -x), towards, 1.0), times) + &model(&name)
 }
 
 fn cuboid(name: &str, half: [f64; 3], at: [f64; 3]) -> String {
@@ -100,22 +90,10 @@ fn bumps() -> Check {
 }
 
 fn hills() -> Vec<u8> {
-    exr_of(16, |x, y| {
+    hung::picture([16; 2], |x, y| {
         let [x, y] = [x, y].map(|c| (std::f64::consts::TAU * c as f64 / 16.0).sin());
         (0.5 + 0.25 * (x + y)) as f32
     })
-}
-
-/// A grey square EXR file.
-pub fn exr_of(side: usize, value: impl Fn(usize, usize) -> f32 + Sync) -> Vec<u8> {
-    let pixel = |at: exr::math::Vec2<usize>| {
-        let value = value(at.x(), at.y());
-        (value, value, value)
-    };
-    let image = Image::from_channels((side, side), SpecificChannels::rgb(pixel));
-    let mut bytes = std::io::Cursor::new(vec![]);
-    image.write().to_buffered(&mut bytes).expect("memory takes every byte");
-    bytes.into_inner()
 }
 
 /// All light goes through a rough pane of coloured glass below the lamp.

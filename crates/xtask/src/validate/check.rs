@@ -1,12 +1,6 @@
 //! What is checked: a scene, who renders it, and what its picture must be.
 
-use super::console::Picture;
-use super::statistics::{Comparison, Estimate, quantile, sidak};
-
-/// Probability that any comparison of a run fails although nothing is wrong.
-pub const FAMILY: f64 = 1e-3;
-/// Relative difference that sums of single-precision numbers may make, and their storage in a file.
-const ROUNDING: f64 = 1e-5;
+use super::statistics::Estimate;
 
 /// Who renders a scene, and how.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -110,6 +104,42 @@ pub struct Row {
     pub target: Target,
 }
 
+/// How finely a picture is rendered, and what must be seen in it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Demand {
+    /// Samples per pixel of each render, by whichever renderer.
+    pub samples: u32,
+    /// A deviation of this share of a number must be seen, or the number is unresolved, which fails.
+    pub resolution: f64,
+}
+
+/// How much of it all is rendered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// For after a change: minutes.
+    Quick,
+    /// For before a release: hours.
+    Full,
+}
+
+impl Form {
+    /// Independent renders of each picture.
+    pub fn seeds(self) -> usize {
+        match self {
+            Self::Quick => 16,
+            Self::Full => 64,
+        }
+    }
+
+    /// What it asks of a check.
+    pub fn demand(self, check: &Check) -> Demand {
+        match self {
+            Self::Quick => check.quick,
+            Self::Full => check.full,
+        }
+    }
+}
+
 /// A scene and what must be seen in it.
 #[derive(Clone, Debug)]
 pub struct Check {
@@ -129,20 +159,22 @@ pub struct Check {
     pub unit: f64,
     /// Who renders it; others are compared with the first, pixel by pixel.
     pub renderers: Vec<Renderer>,
-    /// Samples per pixel of each render by path tracing.
-    pub samples: u32,
     /// The numbers.
     pub rows: Vec<Row>,
-    /// A deviation of this share of the value must be seen, or the check fails for its noise.
-    pub resolution: f64,
-    /// Whether every pixel should have the value of the first row: the report then draws how far each is from it.
+    /// What the quick form renders, and must show.
+    pub quick: Demand,
+    /// What the full form does.
+    pub full: Demand,
+    /// A deviation of this share of its value must be seen in half of the blocks where blocks are compared.
+    pub blocks: f64,
+    /// Whether each part of the picture should have the value of the first row.
     pub is_flat: bool,
     /// Rendered in the full run only.
     pub full_only: bool,
 }
 
 impl Check {
-    /// One number of the whole picture, by some renderers, that must resolve half a percent.
+    /// One number of the whole picture, by some renderers, of which half a percent must be seen.
     pub fn new(
         group: &'static str,
         name: impl Into<String>,
@@ -158,9 +190,10 @@ impl Check {
             mitsuba: None,
             unit: 1.0,
             renderers: THREE.to_vec(),
-            samples: 256,
             rows: vec![],
-            resolution: 5e-3,
+            quick: Demand { samples: 256, resolution: 5e-3 },
+            full: Demand { samples: 256, resolution: 5e-3 },
+            blocks: 0.2,
             is_flat: false,
             full_only: false,
         }
@@ -194,10 +227,17 @@ impl Check {
     /// With so many samples per pixel, of which a deviation of a share must be seen.
     #[must_use]
     pub fn effort(self, samples: u32, resolution: f64) -> Self {
-        Self { samples, resolution, ..self }
+        let demand = Demand { samples, resolution };
+        Self { quick: demand, full: demand, ..self }
     }
 
-    /// With the same value in every pixel.
+    /// With other samples and another demand in the full form.
+    #[must_use]
+    pub fn in_full(self, samples: u32, resolution: f64) -> Self {
+        Self { full: Demand { samples, resolution }, ..self }
+    }
+
+    /// With the same value everywhere in the picture.
     #[must_use]
     pub fn flat(self) -> Self {
         Self { is_flat: true, ..self }
@@ -214,6 +254,7 @@ impl Check {
     pub fn comparisons(&self) -> usize {
         let against_first = usize::from(self.is_against_first());
         self.rows.len() * (self.renderers.len() - against_first)
+            + self.renderers.len() * usize::from(self.is_flat)
             + (self.renderers.len() - 1) * usize::from(self.compares_pictures())
     }
 
@@ -224,149 +265,5 @@ impl Check {
     /// Whether pictures of several ways of rendering are compared by blocks.
     pub fn compares_pictures(&self) -> bool {
         self.renderers[0] != Renderer::Mitsuba && self.renderers.len() > 1
-    }
-}
-
-/// What one comparison said.
-#[derive(Clone, Debug)]
-pub struct Verdict {
-    /// Who rendered.
-    pub renderer: Renderer,
-    /// Which number.
-    pub what: String,
-    /// What was expected, with what it is known to.
-    pub expected: Estimate,
-    /// Whether less is as good.
-    pub is_bound: bool,
-    /// What came out.
-    pub measured: Estimate,
-    /// The test.
-    pub comparison: Comparison,
-    /// What a right renderer may deviate by: what the value is known to, and rounding.
-    pub allowance: f64,
-    /// The share of the value that a deviation must have to be seen.
-    pub resolution: f64,
-    /// The p-value below which it fails.
-    pub threshold: f64,
-    /// Why it failed, if it did.
-    pub failure: Option<String>,
-}
-
-/// Judges all renders of a check: for each renderer the pictures of its seeds.
-pub fn judge(check: &Check, renders: &[Vec<Picture>], comparisons: usize) -> Vec<Verdict> {
-    let threshold = sidak(FAMILY, comparisons);
-    let mut verdicts = vec![];
-    for (i, renderer) in check.renderers.iter().enumerate() {
-        for row in &check.rows {
-            if matches!(row.target, Target::First(_)) && i == 0 {
-                continue;
-            }
-            verdicts.push(judge_row(check, row, *renderer, renders, i, threshold));
-        }
-        if i > 0 && check.compares_pictures() {
-            verdicts.push(judge_blocks(check, *renderer, &renders[0], &renders[i], threshold));
-        }
-    }
-    verdicts
-}
-
-fn judge_row(
-    check: &Check,
-    row: &Row,
-    renderer: Renderer,
-    renders: &[Vec<Picture>],
-    i: usize,
-    threshold: f64,
-) -> Verdict {
-    let measure = |pictures: &[Picture]| {
-        let values: Vec<f64> = pictures.iter().map(|p| p.value(row.quantity, row.area, check.unit)).collect();
-        Estimate::of(&values)
-    };
-    let measured = measure(&renders[i]);
-    let (expected, uncertainty) = match row.target {
-        Target::Value(value, uncertainty) => (Estimate::exact(value), uncertainty),
-        Target::AtMost(value) => (Estimate::exact(value), 0.0),
-        Target::Sampled(estimate) => (estimate, 0.0),
-        Target::First(slack) => {
-            let first = measure(&renders[0]);
-            (first, slack * first.mean.abs())
-        }
-    };
-    let allowance = uncertainty + ROUNDING * expected.mean.abs().max(measured.mean.abs());
-    let is_bound = matches!(row.target, Target::AtMost(_));
-    let mut comparison = Comparison::of(&measured, &expected, allowance);
-    if is_bound && measured.mean <= expected.mean {
-        comparison = Comparison { t: comparison.t.min(0.0), p: 1.0, ..comparison };
-    }
-    let scale = if expected.mean == 0.0 { check.unit } else { expected.mean.abs() };
-    // What is granted is not noticed.
-    let resolution = (quantile(threshold, comparison.freedom) * comparison.error + allowance) / scale;
-    let mut failure = None;
-    if comparison.p < threshold {
-        failure = Some("deviates".to_owned());
-    } else if resolution > check.resolution {
-        failure = Some("too noisy to tell".to_owned());
-    }
-    let what = row.what.clone();
-    Verdict {
-        renderer,
-        what,
-        expected,
-        is_bound,
-        measured,
-        comparison,
-        allowance,
-        resolution,
-        threshold,
-        failure,
-    }
-}
-
-/// Blocks along a side of a picture.
-pub const BLOCKS: usize = 4;
-
-/// The most surprising of all blocks and of X, Y and Z, as if it were one test (Šidák).
-fn judge_blocks(
-    check: &Check,
-    renderer: Renderer,
-    first: &[Picture],
-    own: &[Picture],
-    threshold: f64,
-) -> Verdict {
-    let [width, height] = first[0].size;
-    let cut = |i: usize, n: usize| i * n / BLOCKS;
-    let mut worst: Option<(Estimate, Estimate, Comparison)> = None;
-    let mut resolutions = vec![];
-    for block in 0..BLOCKS * BLOCKS {
-        let (x, y) = (block % BLOCKS, block / BLOCKS);
-        let area = [cut(x, width), cut(x + 1, width), cut(y, height), cut(y + 1, height)];
-        for c in 0..3 {
-            let measure = |pictures: &[Picture]| {
-                Estimate::of(&pictures.iter().map(|p| p.mean(Some(area))[c] / check.unit).collect::<Vec<_>>())
-            };
-            let (a, b) = (measure(own), measure(first));
-            let comparison = Comparison::of(&a, &b, ROUNDING * a.mean.abs().max(b.mean.abs()));
-            resolutions.push(comparison.error / b.mean.abs());
-            if worst.as_ref().is_none_or(|(.., w)| comparison.p < w.p) {
-                worst = Some((a, b, comparison));
-            }
-        }
-    }
-    let tests = BLOCKS * BLOCKS * 3;
-    let (measured, expected, mut comparison) = worst.expect("there are blocks");
-    comparison.p = -((-comparison.p).ln_1p() * tests as f64).exp_m1();
-    resolutions.sort_by(f64::total_cmp);
-    let failure = (comparison.p < threshold).then(|| "a block deviates".to_owned());
-    Verdict {
-        renderer,
-        what: format!("worst of {tests} block means"),
-        expected,
-        is_bound: false,
-        measured,
-        comparison,
-        allowance: ROUNDING * expected.mean.abs(),
-        resolution: resolutions[tests / 2] * quantile(sidak(threshold, tests), comparison.freedom),
-        threshold,
-        failure,
     }
 }

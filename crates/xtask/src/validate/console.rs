@@ -3,10 +3,11 @@
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
 
 use exr::prelude::{FlatSamples, read_first_flat_layer_from_file};
 
-use super::check::{Area, Check, Quantity, Renderer};
+use super::check::{Area, Check, Form, Quantity, Renderer};
 use crate::process;
 
 /// The settings that `text::settings` writes, in whose place a renderer's own stand.
@@ -117,11 +118,27 @@ pub fn seed(check: &Check, renderer: Renderer, render: usize) -> u64 {
     u64::from(name) * 10_000 + 1000 * renderer as u64 + render as u64
 }
 
+/// What came of a check: for each renderer its pictures by seed, or why there are none.
+pub type Rendered = Result<Vec<Series>, String>;
+
+/// Pictures of one renderer.
+#[derive(Clone, Debug, Default)]
+pub struct Series {
+    /// By seed.
+    pub pictures: Vec<Picture>,
+    /// How long their renders took, added up; those that run at once hold one another up.
+    pub seconds: f64,
+}
+
+/// A picture, and how many seconds it took.
+type Render = (Picture, f64);
+
 /// One call of the console.
 struct Job<'a> {
     check: &'a Check,
     renderer: Renderer,
     seed: usize,
+    samples: u32,
 }
 
 impl Console {
@@ -143,17 +160,22 @@ impl Console {
         Ok(Self { program, folder, jobs })
     }
 
-    /// Renders checks by all of Indigo's ways that they name: `pictures[check][renderer][seed]`; empty for others.
-    pub fn render(&self, checks: &[Check], seeds: usize) -> Result<Vec<Vec<Vec<Picture>>>, String> {
+    /// Renders checks by all of Indigo's ways that they name; without pictures for other renderers. A check of which one render
+    /// fails has that failure in its place.
+    ///
+    /// # Errors
+    /// Scenes that cannot be written.
+    pub fn render(&self, checks: &[Check], form: Form) -> Result<Vec<Rendered>, String> {
         let mut jobs = vec![];
         for check in checks {
             for &renderer in check.renderers.iter().filter(|r| **r != Renderer::Mitsuba) {
                 self.write_scene(check, renderer)?;
-                jobs.extend((0..seeds).map(|seed| Job { check, renderer, seed }));
+                let samples = form.demand(check).samples;
+                jobs.extend((0..form.seeds()).map(|seed| Job { check, renderer, seed, samples }));
             }
         }
         let next = AtomicUsize::new(0);
-        let done: Mutex<Vec<Option<Result<Picture, String>>>> =
+        let done: Mutex<Vec<Option<Result<Render, String>>>> =
             Mutex::new((0..jobs.len()).map(|_| None).collect());
         std::thread::scope(|scope| {
             for _ in 0..self.jobs {
@@ -164,23 +186,27 @@ impl Console {
                         if job.seed == 0 {
                             println!("  {}, {}", job.check.name, job.renderer.name());
                         }
-                        let result = self.run(job);
+                        let start = Instant::now();
+                        let result = self.run(job).map(|picture| (picture, start.elapsed().as_secs_f64()));
                         done.lock().expect("no thread panics")[i] = Some(result);
                     }
                 });
             }
         });
         let mut done = done.into_inner().expect("no thread panics").into_iter().flatten();
-        let mut all = vec![];
-        for check in checks {
-            let mut of_check = vec![];
-            for renderer in &check.renderers {
-                let count = if *renderer == Renderer::Mitsuba { 0 } else { seeds };
-                of_check.push(done.by_ref().take(count).collect::<Result<Vec<_>, _>>()?);
-            }
-            all.push(of_check);
-        }
-        Ok(all)
+        let mut series = |renderer: &Renderer| {
+            let count = if *renderer == Renderer::Mitsuba { 0 } else { form.seeds() };
+            let of_renderer: Vec<_> = done.by_ref().take(count).collect();
+            let renders: Vec<Render> = of_renderer.into_iter().collect::<Result<_, String>>()?;
+            let seconds = renders.iter().map(|(_, seconds)| seconds).sum();
+            Ok(Series { pictures: renders.into_iter().map(|(picture, _)| picture).collect(), seconds })
+        };
+        let of_check = |check: &Check| {
+            // All are taken, even after one that failed.
+            let all: Vec<Result<Series, String>> = check.renderers.iter().map(&mut series).collect();
+            all.into_iter().collect()
+        };
+        Ok(checks.iter().map(of_check).collect())
     }
 
     fn folder_of(&self, check: &Check) -> PathBuf {
@@ -206,7 +232,7 @@ impl Console {
                 "-seed",
                 &seed.to_string(),
                 "-haltspp",
-                &job.check.samples.to_string(),
+                &job.samples.to_string(),
                 "-o",
             ])
             .arg(&picture)

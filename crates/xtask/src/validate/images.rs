@@ -7,6 +7,9 @@ use super::statistics::Estimate;
 /// Differences of so many standard errors have the deepest colours.
 pub const DEEPEST: f64 = 5.0;
 
+/// The colour of pixels that hold no numbers.
+const BROKEN: [u8; 3] = [255, 0, 255];
+
 /// Linear Rec. 709 of XYZ (IEC 61966-2-1).
 fn linear([x, y, z]: [f64; 3]) -> [f64; 3] {
     [
@@ -29,7 +32,11 @@ fn mean(pictures: &[Picture], i: usize) -> [f64; 3] {
 
 /// The luminance that is shown as white: three times the mean, or the brightest pixel where that is less.
 pub fn white(pictures: &[Picture]) -> f64 {
-    let values: Vec<f64> = (0..pictures[0].pixels.len()).map(|i| mean(pictures, i)[1]).collect();
+    let luminance = |i: usize| mean(pictures, i)[1];
+    let values: Vec<f64> = (0..pictures[0].pixels.len()).map(luminance).filter(|v| v.is_finite()).collect();
+    if values.is_empty() {
+        return 1.0;
+    }
     let average = values.iter().sum::<f64>() / values.len() as f64;
     values.iter().copied().fold(0.0, f64::max).min(3.0 * average).max(f64::MIN_POSITIVE)
 }
@@ -38,7 +45,10 @@ pub fn white(pictures: &[Picture]) -> f64 {
 pub fn tone_mapped(pictures: &[Picture], white: f64) -> String {
     // A flat field is grey rather than white.
     let scale = 0.8 / white;
-    encoded(pictures[0].size, |i| linear(mean(pictures, i)).map(|v| code(v * scale)))
+    encoded(pictures[0].size, |i| {
+        let mean = mean(pictures, i);
+        if mean.iter().all(|v| v.is_finite()) { linear(mean).map(|v| code(v * scale)) } else { BROKEN }
+    })
 }
 
 /// How much brighter (warm) or darker (cold) pixels are than a value or than others' pixels, in standard errors.
@@ -55,7 +65,11 @@ pub fn difference(own: &[Picture], other: &Other) -> String {
         let error = a.error.hypot(b.error);
         // What rounding alone can make is no difference.
         let excess = ((a.mean - b.mean).abs() - 1e-5 * b.mean.abs()).max(0.0).copysign(a.mean - b.mean);
-        diverging(if error > 0.0 { excess / error } else { excess * f64::INFINITY })
+        match (excess.is_finite() && error.is_finite(), excess == 0.0) {
+            (false, _) => BROKEN,
+            (_, true) => diverging(0.0),
+            (_, false) => diverging(excess / error),
+        }
     })
 }
 
@@ -70,7 +84,7 @@ pub enum Other<'a> {
 /// White at 0; orange above, blue below.
 fn diverging(t: f64) -> [u8; 3] {
     let deep = if t >= 0.0 { [186.0, 72.0, 10.0] } else { [22.0, 92.0, 168.0] };
-    let part = if t.is_nan() { 0.0 } else { (t.abs() / DEEPEST).min(1.0) };
+    let part = (t.abs() / DEEPEST).min(1.0);
     deep.map(|d| (248.0 + (d - 248.0) * part).round() as u8)
 }
 
@@ -107,6 +121,16 @@ mod tests {
         {
             assert_eq!(base64(plain.as_bytes()), coded);
         }
+    }
+
+    #[test]
+    fn what_is_no_number_is_shown() {
+        let picture = |v: f64| Picture { size: [1, 1], pixels: vec![[v; 3]] };
+        let shown = |v: f64| difference(&[picture(v), picture(v)], &Other::Value(1.0));
+        let broken = encoded([1, 1], |_| BROKEN);
+        assert_eq!([shown(f64::NAN), shown(f64::INFINITY)], [broken.clone(), broken.clone()]);
+        assert_eq!(shown(1.0), encoded([1, 1], |_| [248; 3]));
+        assert_eq!(tone_mapped(&[picture(f64::NAN)], white(&[picture(f64::NAN)])), broken);
     }
 
     #[test]

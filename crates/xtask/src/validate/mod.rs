@@ -6,7 +6,9 @@ pub mod agreement;
 pub mod check;
 pub mod console;
 pub mod cross;
+pub mod hung;
 pub mod images;
+pub mod judge;
 pub mod oracles;
 pub mod page;
 #[path = "../../../testkit/src/png.rs"]
@@ -23,19 +25,18 @@ pub mod text;
 use std::path::PathBuf;
 use std::time::Instant;
 
-use check::{Check, FAMILY, judge};
-use console::Console;
+use check::{Check, Form};
+use console::{Console, Rendered};
+use judge::{FAMILY, Judge, threshold};
 use report::{Checked, Report};
 
 use crate::{Outcome, process, venv};
 
-/// Independent renders of each check, in the quick form and in the full one.
-const SEEDS: [usize; 2] = [16, 64];
 const USAGE: &str = "usage: cargo xtask validate [--full] [--only GROUP OR NAME] [--console PROGRAM] [--jobs N] \
                      [--no-mitsuba] [--out FOLDER]";
 
 struct Options {
-    full: bool,
+    form: Form,
     only: Option<String>,
     console: Option<PathBuf>,
     jobs: usize,
@@ -46,7 +47,7 @@ struct Options {
 impl Options {
     fn parse(arguments: &[String]) -> Result<Self, String> {
         let mut options = Self {
-            full: false,
+            form: Form::Quick,
             only: None,
             console: None,
             // A short render waits for its files to reach the disk for half of its time.
@@ -58,7 +59,7 @@ impl Options {
         while let Some(word) = words.next() {
             let mut value = || words.next().ok_or(USAGE);
             match word.as_str() {
-                "--full" => options.full = true,
+                "--full" => options.form = Form::Full,
                 "--no-mitsuba" => options.mitsuba = false,
                 "--only" => options.only = Some(value()?.to_lowercase()),
                 "--console" => options.console = Some(value()?.into()),
@@ -74,14 +75,14 @@ impl Options {
         let is_named = self.only.as_ref().is_none_or(|only| {
             check.group.to_lowercase().contains(only) || check.name.to_lowercase().contains(only)
         });
-        is_named && (self.full || !check.full_only) && (self.mitsuba || check.mitsuba.is_none())
+        is_named && (self.form == Form::Full || !check.full_only) && (self.mitsuba || check.mitsuba.is_none())
     }
 }
 
 /// `cargo xtask validate`.
 ///
 /// # Errors
-/// What could not be run, or how many comparisons failed.
+/// What could not be begun, or how much failed; there is a report of the latter.
 pub fn run(arguments: &[String]) -> Outcome {
     let options = Options::parse(arguments)?;
     let start = Instant::now();
@@ -91,46 +92,64 @@ pub fn run(arguments: &[String]) -> Outcome {
         return Err("no check has that name".into());
     }
     let console = Console::new(options.console.clone(), &options.out.join("scenes"), options.jobs)?;
-    let seeds = SEEDS[usize::from(options.full)];
     if checks.iter().any(|check| check.mitsuba.is_some()) {
         // Before all that takes long: it may need a network.
         venv::for_validation()?;
     }
     let comparisons: usize = checks.iter().map(Check::comparisons).sum();
-    println!("{} checks, {comparisons} comparisons, {seeds} renders each", checks.len());
-    let mut renders = console.render(&checks, seeds)?;
-    cross::render(&checks, &mut renders, &console.folder, seeds)?;
-    let checked = checks.into_iter().zip(renders).map(|(check, renders)| {
-        let verdicts = judge(&check, &renders, comparisons);
-        Checked { check, renders, verdicts }
-    });
+    let form = options.form;
+    println!("{} checks, {comparisons} comparisons, {} renders each", checks.len(), form.seeds());
+    let mut renders = console.render(&checks, form)?;
+    cross::render(&checks, &mut renders, &console.folder, form)?;
+    let threshold = threshold(comparisons);
+    let checked = checks.into_iter().zip(renders);
     let report = Report {
-        checked: checked.collect(),
+        checked: checked.map(|(check, rendered)| judged(check, rendered, form, threshold)).collect(),
         command: format!("cargo xtask validate {}", arguments.join(" ")),
         seconds: start.elapsed().as_secs_f64(),
-        seeds,
+        form,
         family: FAMILY,
-        version: version(&console),
+        version: version(&console, options.console.is_some()),
     };
     report.write(&options.out)?;
     report.say();
     if !options.mitsuba {
         println!("left out: the scenes beside Mitsuba (--no-mitsuba)");
     }
-    match report.failures().count() {
-        0 => Ok(()),
-        count => Err(format!("{count} of {comparisons} comparisons failed")),
+    match (report.failures().count(), report.broken().count()) {
+        (0, 0) => Ok(()),
+        (failed, broken) => Err(format!(
+            "{failed} of {comparisons} comparisons failed, and {broken} checks were not rendered"
+        )),
     }
 }
 
-fn version(console: &Console) -> String {
+fn judged(check: Check, rendered: Rendered, form: Form, threshold: f64) -> Checked {
+    let demand = form.demand(&check);
+    let (series, broken) = match rendered {
+        Ok(series) => (series, None),
+        Err(error) => (vec![], Some(error)),
+    };
+    let seconds = series.iter().map(|s| s.seconds).collect();
+    let renders: Vec<_> = series.into_iter().map(|s| s.pictures).collect();
+    let judge = Judge { check: &check, demand, renders: &renders, threshold };
+    let verdicts = if broken.is_some() { vec![] } else { judge.verdicts() };
+    Checked { check, demand, renders, seconds, verdicts, broken }
+}
+
+/// The console's own words, and the commit if it was built here from one.
+fn version(console: &Console, is_given: bool) -> String {
     let said = process::capture(std::process::Command::new(&console.program).arg("-version"));
-    let commit = process::capture(&mut process::command("git", &["rev-parse", "--short", "HEAD"]));
+    let commit = || process::capture(&mut process::command("git", &["describe", "--always", "--dirty"]));
     let text = |bytes: Result<Vec<u8>, String>| {
         bytes.map_or_else(|_| String::new(), |bytes| String::from_utf8_lossy(&bytes).trim().to_owned())
     };
     let said = text(said);
-    format!("{}, commit {}", said.lines().next().unwrap_or("unknown version"), text(commit))
+    let said = said.lines().next().unwrap_or("unknown version");
+    if is_given {
+        return format!("{said}, a console that was given: {}, commit unknown", console.program.display());
+    }
+    format!("{said}, commit {}", text(commit()))
 }
 
 #[cfg(test)]
@@ -144,9 +163,13 @@ mod tests {
         let all = [oracles::all(), agreement::all(), cross::all()].concat();
         let mut slugs: Vec<String> = all.iter().map(Check::slug).collect();
         slugs.sort();
-        slugs.dedup();
-        assert_eq!(slugs.len(), all.len(), "two checks share their files");
+        let shared: Vec<_> = slugs.windows(2).filter(|pair| pair[0] == pair[1]).collect();
+        assert!(shared.is_empty(), "two checks share their files: {shared:?}");
         assert!(all.iter().all(|check| check.comparisons() > 0 && !check.renderers.is_empty()));
+    }
+
+    fn verdicts(check: &Check, renders: &[Vec<Picture>]) -> Vec<judge::Verdict> {
+        Judge { check, demand: check.quick, renders, threshold: threshold(300) }.verdicts()
     }
 
     /// A picture of one value, noisy so that its mean is known to a hundredth of a percent.
@@ -160,12 +183,46 @@ mod tests {
         let scene = text::scene_file(&[text::settings(8, "")]);
         let check = Check::new("g", "n", "", scene).is(2.0, 0.0).by(check::TECHNIQUES);
         let fails = |first: f64, second: f64| {
-            let verdicts = judge(&check, &[pictures(first), pictures(second)], 300);
+            let verdicts = verdicts(&check, &[pictures(first), pictures(second)]);
             verdicts.iter().filter(|verdict| verdict.failure.is_some()).count()
         };
         assert_eq!(fails(2.0, 2.0), 0);
         assert_eq!(fails(2.01, 2.0), 2, "the value, and the pictures beside each other");
-        assert_eq!(fails(2.0, f64::NAN), 2);
+        assert_eq!(fails(2.0, f64::NAN), 3, "and the pixels");
+    }
+
+    #[test]
+    fn a_picture_that_must_be_even_fails_where_it_is_not() {
+        let scene = text::scene_file(&[text::settings(8, "")]);
+        let check = Check::new("g", "n", "", scene).is(2.0, 0.0).by(check::PATH).flat();
+        let even = |picture: &mut Picture| {
+            for pixel in &mut picture.pixels {
+                (0..3).for_each(|c| pixel[c] *= oracles::EVEN_LIGHT[c]);
+            }
+        };
+        let fails = |slope: f64| {
+            let mut renders = pictures(2.0);
+            for picture in &mut renders {
+                even(picture);
+                // The mean stays.
+                (0..64).for_each(|i| picture.pixels[i][1] *= 1.0 + slope * ((i % 8) as f64 - 3.5));
+            }
+            verdicts(&check, &[renders]).iter().filter(|v| v.failure.is_some()).count()
+        };
+        assert_eq!([fails(0.0), fails(0.01)], [0, 1]);
+    }
+
+    #[test]
+    fn a_pixel_that_is_no_number_fails_wherever_it_is() {
+        let scene = text::scene_file(&[text::settings(8, "")]);
+        let corner = Some([0, 4, 0, 4]);
+        let check = Check::new("g", "n", "", scene).by(check::PATH);
+        let check = check.row("corner", check::Quantity::Y, corner, check::Target::Value(2.0, 0.0));
+        let mut renders = pictures(2.0);
+        assert!(verdicts(&check, &[renders.clone()]).iter().all(|v| v.failure.is_none()));
+        renders[3].pixels[63] = [1.0, f64::NAN, 1.0];
+        let verdicts = verdicts(&check, &[renders]);
+        assert_eq!(verdicts.iter().filter(|v| v.failure == Some("no number")).count(), 1);
     }
 
     #[test]
@@ -173,8 +230,7 @@ mod tests {
         let scene = text::scene_file(&[text::settings(8, "")]);
         let check = Check::new("g", "n", "", scene).is(2.0, 0.0).by(check::PATH);
         let noisy = (0..16).map(|s| Picture { size: [1, 1], pixels: vec![[f64::from(s % 5); 3]] }).collect();
-        let verdicts = judge(&check, &[noisy], 300);
-        assert_eq!(verdicts[0].failure.as_deref(), Some("too noisy to tell"));
+        assert_eq!(verdicts(&check, &[noisy])[0].failure, Some("unresolved"));
         assert_ne!(Renderer::Path.settings(), Renderer::Hybrid.settings());
     }
 }

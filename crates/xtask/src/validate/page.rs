@@ -2,8 +2,10 @@
 
 use std::fmt::Write;
 
-use super::check::{Target, Verdict};
+use super::check::{Check, Form, Renderer, Target};
+use super::console::Picture;
 use super::images::{DEEPEST, Other, difference, tone_mapped, white};
+use super::judge::Verdict;
 use super::report::{Checked, Report};
 use super::statistics::quantile;
 
@@ -31,21 +33,29 @@ pub fn page(report: &Report) -> String {
 
 fn head(report: &Report) -> String {
     let (count, failed) = (report.verdicts().count(), report.failures().count());
-    let said = if failed == 0 {
-        format!("<span class=\"verdict pass\">all {count} comparisons pass</span>")
-    } else {
-        format!("<span class=\"verdict fail\">{failed} of {count} comparisons fail</span>")
+    let said = match (failed, report.broken().count()) {
+        (0, 0) => format!("<span class=\"verdict pass\">all {count} comparisons pass</span>"),
+        (_, 0) => format!("<span class=\"verdict fail\">{failed} of {count} comparisons fail</span>"),
+        (_, broken) => format!(
+            "<span class=\"verdict fail\">{failed} of {count} comparisons fail, {broken} checks were not rendered</span>"
+        ),
+    };
+    let form = match report.form {
+        Form::Quick => {
+            "This is the quick form, whose demands are looser: half a percent of a region beside another renderer is asked of the full form alone."
+        }
+        Form::Full => "This is the full form.",
     };
     format!(
         "<h1>Do the pictures come out true?</h1><p class=\"lead\">{said}</p>\
          <p>Each picture was rendered {} times with independent random numbers; numbers are means, and intervals hold 95 % of them \
          by Student’s t. A comparison fails when its deviation is so unlikely that a right renderer would fail anywhere in this report \
-         with a probability of {} (Šidák), or when noise hides deviations that it is meant to see: the band in each drawing is what \
-         would have been noticed.</p>\
+         with a probability of {} (Šidák), or when noise hides deviations that it must show (it is unresolved): the band in each drawing is what \
+         would have been noticed. {form}</p>\
          <p>Beside a picture is its difference from the value it must have, or from the first picture, in standard errors of each pixel: \
-         <span class=\"key\"></span> −{DEEPEST} to +{DEEPEST}.</p>\
+         <span class=\"key\"></span> −{DEEPEST} to +{DEEPEST}; pixels that hold no numbers are magenta.</p>\
          <p class=\"soft\">{} · {} · {} · {:.0} s · <code>{}</code></p>",
-        report.seeds,
+        report.form.seeds(),
         report.family,
         escaped(&report.version),
         std::env::consts::OS,
@@ -65,7 +75,7 @@ fn summary(report: &Report) -> String {
         let mut resolutions: Vec<f64> = verdicts.iter().map(|v| v.resolution).collect();
         resolutions.sort_by(f64::total_cmp);
         let least = verdicts.iter().map(|v| v.comparison.p).fold(1.0, f64::min);
-        let failed = verdicts.iter().filter(|v| v.failure.is_some()).count();
+        let failed = list.iter().map(|checked| checked.failures()).sum();
         let _ = write!(
             table,
             "<tr><td><a href=\"#{}\">{name}</a></td><td class=\"number\">{}</td><td class=\"number\">{}</td>\
@@ -74,7 +84,7 @@ fn summary(report: &Report) -> String {
             list.len(),
             verdicts.len(),
             probability(least),
-            two_digits(100.0 * resolutions[resolutions.len() / 2]),
+            two_digits(100.0 * resolutions.get(resolutions.len() / 2).copied().unwrap_or(f64::NAN)),
             badge(failed)
         );
     }
@@ -90,13 +100,23 @@ fn badge(failed: usize) -> String {
 
 fn article(checked: &Checked) -> String {
     let check = &checked.check;
-    let failed = checked.verdicts.iter().filter(|v| v.failure.is_some()).count();
     let mut text = format!(
         "<article id=\"{}\"><header><h3>{}</h3>{}</header><p class=\"soft\">{}</p>",
         check.slug(),
         escaped(&check.name),
-        badge(failed),
+        badge(checked.failures()),
         escaped(&check.about)
+    );
+    if let Some(error) = &checked.broken {
+        let _ = write!(text, "<pre>{}</pre></article>", escaped(error));
+        return text;
+    }
+    let _ = write!(
+        text,
+        "<p class=\"soft\">{} samples a pixel in each render; must show {} %, in blocks {} %.</p>",
+        checked.demand.samples,
+        two_digits(100.0 * checked.demand.resolution),
+        two_digits(100.0 * check.blocks)
     );
     text += &pictures(checked);
     text += "<div class=\"scroll\"><table><tr><th>Rendered by</th><th></th><th class=\"number\">Must be</th><th class=\"number\">Is</th>\
@@ -111,28 +131,28 @@ fn article(checked: &Checked) -> String {
 }
 
 fn pictures(checked: &Checked) -> String {
-    let check = &checked.check;
     let white = white(&checked.renders[0]);
     let mut text = String::from("<div class=\"pictures\">");
-    for (i, (renderer, renders)) in check.renderers.iter().zip(&checked.renders).enumerate() {
-        let other = match check.rows.first().map(|row| &row.target) {
-            Some(Target::Value(value, _)) if check.is_flat => Some(Other::Value(value * check.unit)),
-            _ if i > 0 => Some(Other::Pictures(&checked.renders[0])),
-            _ => None,
-        };
-        let name = renderer.name();
-        let _ = write!(
-            text,
-            "<figure><div class=\"pair\"><img alt=\"{name}\" src=\"{}\">",
-            tone_mapped(renders, white)
-        );
-        if let Some(other) = other {
-            let _ =
-                write!(text, "<img alt=\"difference of {name}\" src=\"{}\">", difference(renders, &other));
-        }
-        let _ = write!(text, "</div><figcaption>{name}</figcaption></figure>");
+    for (i, renderer) in checked.check.renderers.iter().enumerate() {
+        text += &figure(&checked.check, *renderer, i, &checked.renders, white);
     }
     text + "</div>"
+}
+
+fn figure(check: &Check, renderer: Renderer, i: usize, renders: &[Vec<Picture>], white: f64) -> String {
+    let other = match check.rows.first().map(|row| &row.target) {
+        Some(Target::Value(value, _)) if check.is_flat => Some(Other::Value(value * check.unit)),
+        _ if i > 0 => Some(Other::Pictures(&renders[0])),
+        _ => None,
+    };
+    let name = renderer.name();
+    let picture = |alt: &str, source: &str| format!("<img alt=\"{alt}{name}\" src=\"{source}\">");
+    let shown = picture("", &tone_mapped(&renders[i], white));
+    let beside = other.map(|other| picture("difference of ", &difference(&renders[i], &other)));
+    format!(
+        "<figure><div class=\"pair\">{shown}{}</div><figcaption>{name}</figcaption></figure>",
+        beside.unwrap_or_default()
+    )
 }
 
 fn row(verdict: &Verdict, name: &str) -> String {

@@ -5,18 +5,25 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::check::{Check, Target, Verdict};
+use super::check::{Check, Demand, Form, Target};
 use super::console::Picture;
+use super::judge::Verdict;
 use super::page;
 
 /// A check, its pictures and what they said.
 pub struct Checked {
     /// What was to be shown.
     pub check: Check,
+    /// What was asked of it.
+    pub demand: Demand,
     /// The pictures by renderer and seed.
     pub renders: Vec<Vec<Picture>>,
+    /// How long the renders of each renderer took, added up.
+    pub seconds: Vec<f64>,
     /// The judgements.
     pub verdicts: Vec<Verdict>,
+    /// Why there are no pictures, if there are none.
+    pub broken: Option<String>,
 }
 
 /// All of a run.
@@ -27,15 +34,28 @@ pub struct Report {
     pub command: String,
     /// How long it took.
     pub seconds: f64,
-    /// Independent renders of each picture.
-    pub seeds: usize,
+    /// How much was rendered.
+    pub form: Form,
     /// Probability of any false alarm.
     pub family: f64,
     /// Of the console.
     pub version: String,
 }
 
+impl Checked {
+    /// How many of its comparisons failed, or that it was not rendered.
+    pub fn failures(&self) -> usize {
+        let failed = self.verdicts.iter().filter(|verdict| verdict.failure.is_some()).count();
+        failed + usize::from(self.broken.is_some())
+    }
+}
+
 impl Report {
+    /// Checks that were not rendered, and why.
+    pub fn broken(&self) -> impl Iterator<Item = (&Check, &str)> {
+        self.checked.iter().filter_map(|c| Some((&c.check, c.broken.as_deref()?)))
+    }
+
     /// Comparisons that failed, with their checks.
     pub fn failures(&self) -> impl Iterator<Item = (&Check, &Verdict)> {
         self.verdicts().filter(|(_, verdict)| verdict.failure.is_some())
@@ -75,9 +95,12 @@ impl Report {
         for (check, verdict) in self.failures() {
             println!("FAILED {}", sentence(check, verdict));
         }
+        for (check, error) in self.broken() {
+            println!("NOT RENDERED {}: {}: {error}", check.group, check.name);
+        }
         for (name, list) in self.groups() {
             let verdicts: Vec<&Verdict> = list.iter().flat_map(|c| &c.verdicts).collect();
-            let failed = verdicts.iter().filter(|verdict| verdict.failure.is_some()).count();
+            let failed: usize = list.iter().map(|checked| checked.failures()).sum();
             let least = verdicts.iter().map(|verdict| verdict.comparison.p).fold(1.0, f64::min);
             println!("{name:<28} {:>4} comparisons, {failed:>3} failed, least p {least:.1e}", verdicts.len());
         }
@@ -101,6 +124,7 @@ impl Report {
                 "p": v.comparison.p,
                 "threshold": v.threshold,
                 "resolution": v.resolution,
+                "demand": v.demand,
                 "failure": v.failure,
             })
         };
@@ -110,7 +134,11 @@ impl Report {
                 "name": c.check.name,
                 "about": c.check.about,
                 "unit_cd_per_m2": c.check.unit,
-                "samples_per_pixel": c.check.samples,
+                "samples_per_pixel": c.demand.samples,
+                "seconds_of_renders": c.check.renderers.iter().zip(&c.seconds)
+                    .map(|(renderer, seconds)| (renderer.name().to_owned(), json!(seconds)))
+                    .collect::<serde_json::Map<_, _>>(),
+                "not_rendered": c.broken,
                 "verdicts": c.verdicts.iter().map(verdict).collect::<Vec<_>>(),
             })
         };
@@ -118,10 +146,11 @@ impl Report {
             "command": self.command,
             "version": self.version,
             "seconds": self.seconds,
-            "renders": self.seeds,
+            "renders": self.form.seeds(),
             "family_false_alarm": self.family,
             "comparisons": self.verdicts().count(),
             "failures": self.failures().count(),
+            "checks_not_rendered": self.broken().count(),
             "checks": self.checked.iter().map(check).collect::<Vec<_>>(),
         })
     }
@@ -139,7 +168,7 @@ fn sentence(check: &Check, verdict: &Verdict) -> String {
         _ if verdict.is_bound => "at most",
         _ => "expected",
     };
-    let reason = verdict.failure.as_deref().unwrap_or("agrees");
+    let reason = verdict.failure.unwrap_or("agrees");
     let (t, p) = (verdict.comparison.t, verdict.comparison.p);
     let percent = 100.0 * (m.mean / e.mean - 1.0);
     let _ = write!(

@@ -8,13 +8,16 @@ use std::path::Path;
 
 use serde_json::json;
 
-use super::check::{Check, PATH, Quantity, Renderer, TECHNIQUES, Target};
-use super::console::{self, Picture};
+use super::check::{Check, Form, Quantity, Renderer, TECHNIQUES, Target};
+use super::console::{self, Picture, Rendered, Series};
 use crate::{Outcome, process, venv};
 
 const GROUP: &str = "Beside Mitsuba";
-/// Samples per pixel of each render, of both.
+/// Samples per pixel of each render in the quick form, of both.
 const SAMPLES: u32 = 128;
+/// What must be seen in each part of a picture, in the quick form and in the full one.
+const QUICK: f64 = 3e-2;
+const FULL: f64 = 5e-3;
 /// Means of the parts of a picture must agree within this share, beyond noise: what single precision and the digits of the
 /// observers' tables may make in two programs.
 const AGREEMENT: f64 = 2e-4;
@@ -30,9 +33,9 @@ fn check(entry: &scenes::Entry) -> Check {
     let mut check = Check::new(GROUP, entry.name, entry.about, entry.stage.text());
     check.files = entry.stage.files();
     check.mitsuba = Some(entry.stage.dictionary());
-    check = check.unit(stage::UNIT).effort(SAMPLES * entry.effort, 3e-2);
-    let techniques = if entry.stage.map.is_some() { PATH } else { TECHNIQUES };
-    check.renderers = [&[Renderer::Mitsuba], techniques].concat();
+    let samples = SAMPLES * entry.effort;
+    check = check.unit(stage::UNIT).effort(samples, QUICK).in_full(samples * entry.fine, FULL);
+    check.renderers = [&[Renderer::Mitsuba], TECHNIQUES].concat();
     let side = stage::SIDE as usize;
     let half = side / 2;
     let areas = [
@@ -53,11 +56,12 @@ fn check(entry: &scenes::Entry) -> Check {
     check
 }
 
-/// Renders with Mitsuba what the checks want of it, into the places that it has there.
+/// Renders with Mitsuba what the checks want of it, into the places that it has there. What it could not render is a failure
+/// of those checks.
 ///
 /// # Errors
-/// What could not be installed or run.
-pub fn render(checks: &[Check], renders: &mut [Vec<Vec<Picture>>], folder: &Path, seeds: usize) -> Outcome {
+/// What could not be installed or started.
+pub fn render(checks: &[Check], renders: &mut [Rendered], folder: &Path, form: Form) -> Outcome {
     let wanted: Vec<(usize, &Check)> =
         checks.iter().enumerate().filter(|(_, c)| c.mitsuba.is_some()).collect();
     if wanted.is_empty() {
@@ -67,8 +71,8 @@ pub fn render(checks: &[Check], renders: &mut [Vec<Vec<Picture>>], folder: &Path
     let jobs: Vec<serde_json::Value> = wanted
         .iter()
         .map(|(_, check)| {
-            json!({"name": check.name, "scene": check.mitsuba, "samples": check.samples, "seeds": seeds,
-                   "first_seed": first_seed(check), "out": path(check)})
+            json!({"name": check.name, "scene": check.mitsuba, "samples": form.demand(check).samples,
+                   "seeds": form.seeds(), "first_seed": first_seed(check), "out": path(check)})
         })
         .collect();
     let write = |name: &str, text: String| {
@@ -79,10 +83,20 @@ pub fn render(checks: &[Check], renders: &mut [Vec<Vec<Picture>>], folder: &Path
     };
     let script = write("render.py", SCRIPT.to_owned())?;
     let list = write("mitsuba.json", serde_json::Value::from(jobs).to_string())?;
+    for (_, check) in &wanted {
+        // What an earlier run left would be taken for this one's.
+        drop(std::fs::remove_file(path(check)));
+    }
     let python = venv::for_validation()?;
-    process::run(std::process::Command::new(python).arg(script).arg(list))?;
+    let end = process::run(std::process::Command::new(python).arg(script).arg(list));
     for (i, check) in wanted {
-        renders[i][0] = read(&path(check), stage::SIDE as usize)?;
+        let own = read(&path(check), stage::SIDE as usize, form.seeds());
+        let own = own.map_err(|error| end.clone().err().unwrap_or(error));
+        renders[i] = own.and_then(|own| {
+            let mut all = renders[i].clone()?;
+            all[0] = own;
+            Ok(all)
+        });
     }
     Ok(())
 }
@@ -92,12 +106,18 @@ fn first_seed(check: &Check) -> u32 {
     (console::seed(check, Renderer::Mitsuba, 0) % (1 << 31)) as u32
 }
 
-/// Pictures of 32-bit numbers, X, Y and Z of each pixel in units of the luminance of even radiance.
-fn read(path: &Path, side: usize) -> Result<Vec<Picture>, String> {
+/// Seconds, and pictures of X, Y and Z of each pixel in units of the luminance of even radiance: all 32-bit numbers.
+fn read(path: &Path, side: usize, seeds: usize) -> Result<Series, String> {
     let bytes = std::fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
     let (numbers, _) = bytes.as_chunks::<4>();
-    let values: Vec<f64> = numbers.iter().map(|b| f64::from(f32::from_le_bytes(*b)) * stage::UNIT).collect();
+    let mut numbers = numbers.iter().map(|b| f64::from(f32::from_le_bytes(*b)));
+    let seconds = numbers.next().unwrap_or(0.0);
+    let values: Vec<f64> = numbers.map(|v| v * stage::UNIT).collect();
     let (pixels, _) = values.as_chunks::<3>();
     let pictures = pixels.chunks_exact(side * side);
-    Ok(pictures.map(|pixels| Picture { size: [side; 2], pixels: pixels.to_vec() }).collect())
+    if pictures.len() != seeds {
+        return Err(format!("{}: {} pictures, expected {seeds}", path.display(), pictures.len()));
+    }
+    let pictures = pictures.map(|pixels| Picture { size: [side; 2], pixels: pixels.to_vec() }).collect();
+    Ok(Series { pictures, seconds })
 }

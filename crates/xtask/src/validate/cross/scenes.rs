@@ -1,7 +1,8 @@
 //! The scenes that both renderers render.
 
-use super::super::shapes::{Mesh, Point, add, cross};
-use super::stage::{Map, Shape, Stage, Surface, Tone, View};
+use super::super::hung;
+use super::super::shapes::{Mesh, Point};
+use super::stage::{Index, Map, Shape, Stage, Surface, Tone, View};
 
 /// A scene, what it shows, and which share of a value a known difference of models may take.
 pub struct Entry {
@@ -15,28 +16,21 @@ pub struct Entry {
     pub is_coloured: bool,
     /// How many times as many samples as others it needs for its noise.
     pub effort: u32,
+    /// How many times as many samples the full form takes, so that half a percent of each region is seen by both.
+    pub fine: u32,
     /// The scene.
     pub stage: Stage,
 }
 
 impl Entry {
     fn new(name: &'static str, about: &'static str, stage: Stage) -> Self {
-        Self { name, about, slack: 0.0, is_coloured: false, effort: 1, stage }
+        Self { name, about, slack: 0.0, is_coloured: false, effort: 1, fine: 5, stage }
     }
 }
 
 /// A square of a half side whose front looks along an axis, `d` away from the origin on the other side.
 fn wall(towards: Point, d: f64, half: f64) -> Shape {
-    let u = if towards[0].abs() > 0.5 { [0.0, 1.0, 0.0] } else { [1.0, 0.0, 0.0] };
-    let v = cross(towards, u);
-    let corner =
-        |a: f64, b: f64| add(towards.map(|x| -x * d), add(u.map(|x| x * a * half), v.map(|x| x * b * half)));
-    Shape::Triangles(Mesh::polygon(vec![
-        corner(-1.0, -1.0),
-        corner(1.0, -1.0),
-        corner(1.0, 1.0),
-        corner(-1.0, 1.0),
-    ]))
+    Shape::Triangles(Mesh::polygon(hung::corners(towards.map(|x| -x * d), towards, half).to_vec()))
 }
 
 fn matt(albedo: f64) -> Surface {
@@ -88,11 +82,23 @@ fn ball(center: Point, radius: f64, surface: Surface) -> (Shape, Surface) {
     (Shape::Ball(center, radius), surface)
 }
 
-/// n and k as of gold, every 78 nm, in round numbers.
-fn golden() -> (Tone, Tone) {
-    let n = [1.65, 1.6, 0.9, 0.3, 0.18, 0.16, 0.18];
-    let k = [1.9, 1.95, 1.9, 2.9, 3.6, 4.3, 5.1];
-    (Tone::Table(n.to_vec()), Tone::Table(k.to_vec()))
+/// As it comes with Indigo.
+const GOLD: Index = Index::Shipped(include_str!("../../../../../nkdata/au.nk"));
+
+/// A picture that looks like itself neither mirrored, nor upside down, nor turned: a bright L with a grey foot, darker to the right.
+fn sign() -> Map {
+    Map::new([8, 8], |x, y| match (x, y) {
+        (1..=2, 1..=6) => 20.0,
+        (3..=6, 5..=6) => 9.0,
+        _ => 2.0 - 0.2 * x as f32,
+    })
+}
+
+/// The white room, lit by a picture on its back wall.
+fn sign_in_room() -> Stage {
+    let square = hung::corners([0.1, 0.95, 0.1], [0.0, -1.0, 0.0], 0.6);
+    let things = vec![(Shape::Square(square), Surface::Screen(sign())), block(matt(0.4))];
+    Stage { view: view(), things: [white_room(), things].concat(), around: 0.0, map: None }
 }
 
 /// All of them.
@@ -107,8 +113,7 @@ fn surfaces() -> Vec<Entry> {
     let mut coloured = in_room(vec![block(matt(0.4))]);
     coloured.things =
         [room([matt(0.5), red, blue, matt(0.7)]), vec![lamp(0.4, warm), block(matt(0.4))]].concat();
-    let (n, k) = golden();
-    let steel = Surface::Metal(Tone::Even(2.8), Tone::Even(3.3), 1000.0);
+    let steel = Surface::Metal(Index::Constant(2.8, 3.3), 1000.0);
     let mut rough = Entry::new(
         "rough metal",
         "Trowbridge and Reitz's facets of width 0.045 on a metal of n = 2.8, k = 3.3. Indigo gives back what is lost among facets \
@@ -116,6 +121,7 @@ fn surfaces() -> Vec<Entry> {
         in_even_light(steel),
     );
     rough.slack = 2e-3;
+    rough.fine = 2;
     let mut frosted = Entry::new(
         "rough glass",
         "Trowbridge and Reitz's facets of the exponent 200, width 0.1, n = 1.5; both lose what would be scattered twice. Masking \
@@ -123,6 +129,7 @@ fn surfaces() -> Vec<Entry> {
         in_even_light(Surface::Frosted(1.5, 200.0)),
     );
     frosted.slack = 1e-3;
+    frosted.fine = 3;
     vec![
         Entry::new("matt box", "Matt walls, a block and a lamp.", in_room(vec![block(matt(0.4))])),
         Entry {
@@ -133,9 +140,9 @@ fn surfaces() -> Vec<Entry> {
         Entry {
             is_coloured: true,
             ..Entry::new(
-                "metal from n and k",
-                "A smooth ball of a metal by a table of n and k.",
-                in_even_light(Surface::Metal(n, k, 1e12)),
+                "gold",
+                "A smooth ball of gold, by the table of n and k that comes with Indigo.",
+                in_even_light(Surface::Metal(GOLD, 1e12)),
             )
         },
         Entry::new(
@@ -200,6 +207,7 @@ fn lights() -> Vec<Entry> {
         mapped,
     );
     environment.slack = 1e-3;
+    environment.fine = 3;
     vec![
         Entry {
             effort: 2,
@@ -209,7 +217,15 @@ fn lights() -> Vec<Entry> {
                 in_room(small),
             )
         },
-        Entry::new("thin lens", "An aperture of 0.3 m, focused 2.6 m away, before the room.", lens),
+        Entry {
+            fine: 8,
+            ..Entry::new("thin lens", "An aperture of 0.3 m, focused 2.6 m away, before the room.", lens)
+        },
+        Entry::new(
+            "lamp with a picture",
+            "A room lit by a picture of 8 × 8 texels, bilinear between their middles, which looks like itself neither mirrored nor turned.",
+            sign_in_room(),
+        ),
         environment,
     ]
 }

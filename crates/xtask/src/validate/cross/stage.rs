@@ -2,12 +2,11 @@
 //! loads. Radiances are relative to that of even light, 1.
 
 use std::f64::consts::{PI, TAU};
-use std::fmt::Write;
 
-use exr::prelude::{Image, SpecificChannels, WritableImage};
 use serde_json::{Value, json};
 
-use super::super::oracles::{AROUND, NITS_PER_UNIFORM};
+use super::super::hung;
+use super::super::oracles::{AROUND, NITS_PER_UNIFORM, constant_nk};
 use super::super::shapes::{Mesh, Point, dot, mesh_light, model, sub};
 use super::super::text::{
     ONE_PIXEL, background, basic, diffuse, flat_camera, grey, henyey_greenstein, medium, scattering,
@@ -42,12 +41,46 @@ pub enum Surface {
     Glass(f64, f64),
     /// Rough and clear: index and exponent.
     Frosted(f64, f64),
-    /// Complex index, and the exponent of a rough one.
-    Metal(Tone, Tone, f64),
+    /// A complex index, and the exponent of a rough one.
+    Metal(Index, f64),
     /// Index of the body; absorption and scattering in 1/m; mean cosine.
     Fog(f64, f64, f64, f64),
     /// Shines with a radiance from its front, and reflects nothing.
     Lamp(Tone),
+    /// The same with a picture, of a square.
+    Screen(Map),
+}
+
+/// A complex index of refraction.
+#[derive(Clone, Debug)]
+pub enum Index {
+    /// The same at all wavelengths.
+    Constant(f64, f64),
+    /// The text of a file that comes with Indigo: steps of micrometres.
+    Shipped(&'static str),
+}
+
+impl Index {
+    /// As a file of Indigo's.
+    fn file(&self) -> Vec<u8> {
+        match self {
+            Self::Constant(n, k) => constant_nk(*n, *k),
+            Self::Shipped(text) => text.as_bytes().to_vec(),
+        }
+    }
+
+    /// n and k as Mitsuba has them.
+    fn dictionaries(&self) -> [Value; 2] {
+        let text = match self {
+            Self::Constant(n, k) => return [*n, *k].map(|v| Tone::Even(v).dictionary()),
+            Self::Shipped(text) => text,
+        };
+        let numbers: Vec<f64> = text.split_whitespace().filter_map(|word| word.parse().ok()).collect();
+        let (head, values) = numbers.split_at(4);
+        assert!(head[0] == 2.0, "micrometres");
+        let range = [head[1] * 1e3, head[2] * 1e3];
+        [0, 1].map(|i| regular(range, &values.chunks_exact(2).map(|pair| pair[i]).collect::<Vec<_>>()))
+    }
 }
 
 /// Its shape.
@@ -57,6 +90,8 @@ pub enum Shape {
     Ball(Point, f64),
     /// Triangles.
     Triangles(Mesh),
+    /// Lower left, lower right, upper right and upper left of a square on which a picture hangs.
+    Square([Point; 4]),
 }
 
 /// Where it is seen from.
@@ -93,40 +128,32 @@ pub struct Map {
 }
 
 impl Map {
+    /// Of columns and rows, whose values are given by column and row from the top.
+    pub fn new(size: [usize; 2], value: impl Fn(usize, usize) -> f32) -> Self {
+        let values = (0..size[0] * size[1]).map(|i| value(i % size[0], i / size[0])).collect();
+        Self { size, values }
+    }
+
     /// A wide soft light in a direction, and a little everywhere.
     pub fn bright_towards(direction: Point) -> Self {
         let size = [128, 64];
-        let texel = |i: usize| {
-            let [x, y] = [i % size[0], i / size[0]].map(|c| c as f64 + 0.5);
+        let texel = |x: usize, y: usize| {
+            let [x, y] = [x, y].map(|c| c as f64 + 0.5);
             // The middle lies towards +y, the right half towards +x, the top towards +z.
             let (azimuth, polar) = (TAU * (x / size[0] as f64 - 0.5), PI * y / size[1] as f64);
             let d = [polar.sin() * azimuth.sin(), polar.sin() * azimuth.cos(), polar.cos()];
             (0.2 + 2.0 * (4.0 * (dot(d, direction) - 1.0)).exp()) as f32
         };
-        Self { size, values: (0..size[0] * size[1]).map(texel).collect() }
+        Self::new(size, texel)
     }
 
     /// As an EXR file.
     fn file(&self) -> Vec<u8> {
-        let value = |at: exr::math::Vec2<usize>| {
-            let v = self.values[at.y() * self.size[0] + at.x()];
-            (v, v, v)
-        };
-        let image = Image::from_channels((self.size[0], self.size[1]), SpecificChannels::rgb(value));
-        let mut bytes = std::io::Cursor::new(vec![]);
-        image.write().to_buffered(&mut bytes).expect("memory takes every byte");
-        bytes.into_inner()
+        hung::picture(self.size, |x, y| self.values[y * self.size[0] + x])
     }
 }
 
 impl Tone {
-    fn values(&self) -> Vec<f64> {
-        match self {
-            Self::Even(value) => vec![*value; 2],
-            Self::Table(values) => values.clone(),
-        }
-    }
-
     /// As a spectrum of Indigo, times a factor.
     fn text(&self, factor: f64) -> String {
         match self {
@@ -147,14 +174,15 @@ impl Tone {
     fn dictionary(&self) -> Value {
         match self {
             Self::Even(value) => json!({"type": "uniform", "value": value}),
-            Self::Table(values) => json!({
-                "type": "regular",
-                "wavelength_min": RANGE_NM[0],
-                "wavelength_max": RANGE_NM[1],
-                "values": values.iter().map(f64::to_string).collect::<Vec<_>>().join(" "),
-            }),
+            Self::Table(values) => regular(RANGE_NM, values),
         }
     }
+}
+
+/// Mitsuba's spectrum of values at equal steps of a range in nm.
+fn regular([from, to]: [f64; 2], values: &[f64]) -> Value {
+    let list: Vec<String> = values.iter().map(f64::to_string).collect();
+    json!({"type": "regular", "wavelength_min": from, "wavelength_max": to, "values": list.join(" ")})
 }
 
 /// Width of Trowbridge and Reitz's distribution that has the density of a Phong lobe along the normal (Walter et al. 2007).
@@ -172,7 +200,7 @@ impl Surface {
         };
         match self {
             Self::Matt(tone) => diffuse(name, &tone.text(1.0)),
-            Self::Lamp(_) => grey(name, 0.0),
+            Self::Lamp(_) | Self::Screen(_) => grey(name, 0.0),
             Self::Glass(ior, absorption) => {
                 body(*ior, *absorption, "") + &specular(name, &format!("in {name}"))
             }
@@ -182,7 +210,7 @@ impl Surface {
                         "<glossy_transparent><internal_medium_name>in {name}</internal_medium_name><exponent>{exponent}</exponent></glossy_transparent>"
                     ))
             }
-            Self::Metal(_, _, exponent) => {
+            Self::Metal(_, exponent) => {
                 kind(format!("<phong><nk_data>{name}.nk</nk_data><exponent>{exponent}</exponent></phong>"))
             }
             Self::Fog(ior, absorption, coefficient, g) => {
@@ -195,13 +223,11 @@ impl Surface {
 
     /// A file of the material's, if it needs one.
     fn file(&self, name: &str) -> Option<(String, Vec<u8>)> {
-        let Self::Metal(n, k, _) = self else { return None };
-        let (n, k) = (n.values(), k.values());
-        let mut text = format!("4 {} {} {}\n", RANGE_NM[0], RANGE_NM[1], n.len() - 1);
-        for (n, k) in n.iter().zip(&k) {
-            let _ = writeln!(text, "{n} {k}");
+        match self {
+            Self::Metal(index, _) => Some((format!("{name}.nk"), index.file())),
+            Self::Screen(map) => Some((format!("{name}.exr"), map.file())),
+            _ => None,
         }
-        Some((format!("{name}.nk"), text.into_bytes()))
     }
 
     /// What Mitsuba's shape holds beside its shape.
@@ -224,6 +250,10 @@ impl Surface {
                 "bsdf": matt(&Tone::Even(0.0)),
                 "emitter": {"type": "area", "radiance": tone.dictionary()},
             }),
+            Self::Screen(map) => json!({
+                "bsdf": matt(&Tone::Even(0.0)),
+                "emitter": {"type": "area", "radiance": {"type": "picture", "size": map.size, "grey": map.values}},
+            }),
             Self::Glass(ior, 0.0) => json!({"bsdf": smooth(*ior)}),
             Self::Glass(ior, absorption) => {
                 json!({"bsdf": smooth(*ior), "interior": homogeneous(*absorption, 0.0, 0.0)})
@@ -231,10 +261,12 @@ impl Surface {
             Self::Frosted(ior, exponent) => json!({"bsdf": {
                 "type": "roughdielectric", "distribution": "ggx", "alpha": width(*exponent), "int_ior": ior, "ext_ior": 1.0,
             }}),
-            Self::Metal(n, k, exponent) => json!({"bsdf": {"type": "twosided", "inner": {
-                "type": "roughconductor", "distribution": "ggx", "alpha": width(*exponent),
-                "eta": n.dictionary(), "k": k.dictionary(),
-            }}}),
+            Self::Metal(index, exponent) => {
+                let [n, k] = index.dictionaries();
+                json!({"bsdf": {"type": "twosided", "inner": {
+                    "type": "roughconductor", "distribution": "ggx", "alpha": width(*exponent), "eta": n, "k": k,
+                }}})
+            }
             Self::Fog(ior, absorption, coefficient, g) => {
                 let bsdf = if *ior == 1.0 { json!({"type": "null"}) } else { smooth(*ior) };
                 json!({"bsdf": bsdf, "interior": homogeneous(*absorption, *coefficient, *g)})
@@ -271,6 +303,11 @@ impl Stage {
                     mesh.text(&name, &name) + &mesh_light(&name, &tone.text(AROUND), [0.0; 3], 1.0, "")
                 }
                 (Shape::Triangles(mesh), _) => mesh.text(&name, &name) + &model(&name),
+                (Shape::Square(corners), _) => {
+                    let picture = format!("<texture><path>{name}.exr</path><exponent>1</exponent></texture>");
+                    hung::mesh(&name, &name, *corners, 1.0)
+                        + &mesh_light(&name, &uniform(AROUND), [0.0; 3], 1.0, &picture)
+                }
             });
         }
         scene_file(&parts)
@@ -329,6 +366,12 @@ impl Stage {
                     thing["type"] = "mesh".into();
                     thing["vertices"] = json!(mesh.points);
                     thing["faces"] = json!(mesh.triangles);
+                }
+                Shape::Square(corners) => {
+                    thing["type"] = "mesh".into();
+                    thing["vertices"] = json!(corners);
+                    thing["faces"] = json!([[0, 1, 2], [0, 2, 3]]);
+                    thing["places"] = json!([[0, 0], [1, 0], [1, 1], [0, 1]]);
                 }
             }
             scene[format!("thing{i}")] = thing;

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::super::check::{Check, TECHNIQUES, THREE};
 use super::super::shapes::{Mesh, Point, mesh_light, model, sub};
-use super::super::text::{grey, uniform};
+use super::super::text::{background, grey, uniform};
 use super::patch::{TANGENT, patch_mean, seen_from};
 use super::{NITS_PER_UNIFORM, looking};
 
@@ -119,12 +119,50 @@ pub fn checks() -> Vec<Check> {
     let about = "Light adds up: 153.7376 lx + 63.9058 lx.";
     let under_both = |p: Point| under_manual()(p) + under_manual()(sub(p, [1.0, 1.0, 0.0]));
     checks.push(floor("two lamps", about, &both, [1.0, 1.0, 0.0], under_both).by(TECHNIQUES));
+    checks.extend([[0.0, 0.0], [1.5, 0.4]].map(portal));
     // Metropolis sampling gains nothing from more shapes of the same lamp.
     for (i, check) in checks.iter_mut().enumerate() {
         let renderers = if i < 4 { THREE } else { TECHNIQUES };
         check.renderers = renderers.to_vec();
+        if i >= 4 {
+            check.quick.samples /= 4;
+        }
     }
     checks
+}
+
+/// A black room of which the ceiling has an opening, covered by a portal, under even light.
+fn portal(target: [f64; 2]) -> Check {
+    const SIZE: Point = [2.0, 1.0, 2.0];
+    const HALF: f64 = 6.0;
+    let [x, y, up] = SIZE;
+    let square =
+        |name: &str, corners: [Point; 4]| Mesh::polygon(corners.to_vec()).text(name, "black") + &model(name);
+    let level =
+        |[x0, x1]: [f64; 2], [y0, y1]: [f64; 2]| [[x0, y0, up], [x0, y1, up], [x1, y1, up], [x1, y0, up]];
+    let upright =
+        |[ax, ay]: [f64; 2], [bx, by]: [f64; 2]| [[ax, ay, 0.0], [bx, by, 0.0], [bx, by, up], [ax, ay, up]];
+    let (a, b, h) = (0.5 * x, 0.5 * y, HALF);
+    let parts = [
+        grey("black", 0.0),
+        square("left", level([-h, -a], [-h, h])),
+        square("right", level([a, h], [-h, h])),
+        square("before", level([-a, a], [-h, -b])),
+        square("behind", level([-a, a], [b, h])),
+        square("west", upright([-h, -h], [-h, h])),
+        square("east", upright([h, -h], [h, h])),
+        square("south", upright([-h, -h], [h, -h])),
+        square("north", upright([-h, h], [h, h])),
+        rectangle_mesh(SIZE).text("opening", "black"),
+        "<exit_portal><pos>0 0 0</pos><scale>1</scale><mesh_name>opening</mesh_name></exit_portal>"
+            .to_owned(),
+        background(&uniform(RADIANCE)),
+    ];
+    let [x, y] = target;
+    let about = "Even light through a portal in the ceiling of a black room: Lambert's ½ Σ θ (n · Γ) over the edges of the opening.";
+    let name = format!("exit portal, floor at ({x}, {y})");
+    let lux = |p: Point| RADIANCE * NITS_PER_UNIFORM * rectangle_mesh(SIZE).irradiance(p, [0.0, 0.0, 1.0]);
+    floor(&name, about, &parts.concat(), [x, y, 0.0], lux)
 }
 
 #[cfg(test)]

@@ -14,6 +14,12 @@ pub fn checks() -> Vec<Check> {
     [albedos(), whites(), bodies(), rooms()].concat()
 }
 
+/// A sheet of a material "m" that stands at an angle to the look, in even light.
+pub fn sheet_in_even_light(degrees: f64, parts: &[String]) -> String {
+    // So narrow a look has one angle.
+    in_even_light([0.0, -5.0, 0.0], 1e-3, &[parts, &[sheet(degrees)]].concat())
+}
+
 fn furnace(name: &str, about: &str, parts: &[String], value: f64) -> Check {
     // A narrow look at an upright sheet or into a ball 5 m away.
     Check::new(GROUP, name, about, in_even_light([0.0, -5.0, 0.0], 0.05, parts))
@@ -88,6 +94,7 @@ fn whites() -> Vec<Check> {
     let bound = "Facets lose what they would scatter twice: no brighter than its surroundings.";
     let mut frosted = furnace("frosted glass", bound, &parts, 1.0).by(TECHNIQUES);
     frosted.rows[0].target = Target::AtMost(1.0);
+    frosted = frosted.effort(64, 5e-3).in_full(256, 5e-3);
     checks.push(frosted);
     checks
 }

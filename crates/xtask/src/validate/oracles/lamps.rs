@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
-use super::super::agreement::exr_of;
 use super::super::check::{Check, PATH, TECHNIQUES};
+use super::super::hung;
 use super::super::shapes::{Mesh, Point, mesh_light, model, sub};
 use super::super::text::{grey, sphere, uniform};
 use super::patch::{TANGENT, patch_mean, seen_from};
@@ -29,6 +29,31 @@ fn photometry() -> Vec<u8> {
     .into_bytes()
 }
 
+/// The same lamp with other intensities round its axis: one factor at each quarter turn, from the x axis towards the y axis.
+const ROUND: [f64; 5] = [1.0, 0.4, 0.7, 1.3, 1.0];
+
+fn photometry_round() -> Vec<u8> {
+    let even = String::from_utf8(photometry()).expect("it is text");
+    let (head, candelas) = even.split_once("\n0\n").expect("one horizontal angle");
+    let head = head
+        .replace(&format!(" {} 1 1 2", CANDELAS.len()), &format!(" {} {} 1 2", CANDELAS.len(), ROUND.len()));
+    let column = |factor: f64| {
+        let scaled: Vec<String> = candelas
+            .split_whitespace()
+            .map(|c| (factor * c.parse::<f64>().unwrap_or(0.0)).to_string())
+            .collect();
+        scaled.join(" ")
+    };
+    format!("{head}\n0 90 180 270 360\n{}\n", ROUND.map(column).join("\n")).into_bytes()
+}
+
+/// The factor towards a point, linear in the angle.
+fn round([x, y]: [f64; 2]) -> f64 {
+    let quarters = y.atan2(x).rem_euclid(2.0 * PI) / (0.5 * PI);
+    let i = (quarters as usize).min(3);
+    ROUND[i] + (ROUND[i + 1] - ROUND[i]) * (quarters - i as f64)
+}
+
 /// Candelas at an angle in degrees.
 fn candelas(degrees: f64) -> f64 {
     let span = CANDELAS.windows(2).find(|w| degrees <= w[1].0);
@@ -47,6 +72,7 @@ fn lamp(height: f64) -> String {
 pub fn checks() -> Vec<Check> {
     let mut checks = vec![flux()];
     checks.extend([10.0, 33.0, 60.0].map(below));
+    checks.extend([20.0, 130.0, 205.0, 300.0].map(around));
     checks.extend([[0.0, 0.0], [0.8, 0.0], [-0.6, 0.5]].map(picture));
     checks
 }
@@ -71,27 +97,45 @@ fn flux() -> Check {
         .effort(512, 1e-2)
 }
 
+/// Height of the lamp above the floor, metres.
+const HEIGHT: f64 = 2.0;
+
+/// Illuminance of the floor by the lamp, times a factor.
+fn lux([x, y, _]: Point, factor: f64) -> f64 {
+    let way2 = x * x + y * y + HEIGHT * HEIGHT;
+    let cosine = HEIGHT / way2.sqrt();
+    factor * candelas(cosine.acos().to_degrees()) * cosine / way2
+}
+
 /// The floor two metres below, from where the lamp is seen at an angle.
 fn below(degrees: f64) -> Check {
-    let height = 2.0f64;
-    let target = [height * degrees.to_radians().tan(), 0.0, 0.0];
-    let lux = |[x, y, _]: Point| {
-        let way2 = x * x + y * y + height * height;
-        let cosine = height / way2.sqrt();
-        candelas(cosine.acos().to_degrees()) * cosine / way2
-    };
+    let target = [HEIGHT * degrees.to_radians().tan(), 0.0, 0.0];
     let about = format!(
         "I cos θ / d² with {:.1} cd at {degrees}°, mean over the patch that is seen.",
         candelas(degrees)
     );
-    let scene = floor(&lamp(height), target);
-    let value = ALBEDO / PI * patch_mean(target, lux);
+    let value = ALBEDO / PI * patch_mean(target, |p| lux(p, 1.0));
+    let check =
+        Check::new(GROUP, format!("photometric lamp at {degrees}°"), about, floor(&lamp(HEIGHT), target));
     // The lamp is 1 cm to each side: 3·10⁻⁵ of d², and no kink of the file lies within its angle.
-    with_file(
-        Check::new(GROUP, format!("photometric lamp at {degrees}°"), about, scene).is(value, 3e-5 * value),
-    )
-    .by(TECHNIQUES)
-    .effort(256, 5e-3)
+    with_file(check.is(value, 3e-5 * value)).by(TECHNIQUES).effort(64, 5e-3).in_full(256, 5e-3)
+}
+
+/// The floor in another direction round the axis of a lamp whose intensities differ there.
+fn around(degrees: f64) -> Check {
+    let (s, c) = degrees.to_radians().sin_cos();
+    let target = [1.2 * c, 1.2 * s, 0.0];
+    let factor = |[x, y, _]: Point| round([x, y]);
+    let about = format!(
+        "Horizontal angles of a photometric file run from the x axis towards the y axis of the lamp, seen from above where it shines \
+         down: at {degrees}° {:.2} of the candelas, linear between quarter turns.",
+        factor(target)
+    );
+    let value = ALBEDO / PI * patch_mean(target, |p| lux(p, factor(p)));
+    let name = format!("photometric lamp, {degrees}° round its axis");
+    let mut check = Check::new(GROUP, name, about, floor(&lamp(HEIGHT), target));
+    check.files.push(("lamp.ies".to_owned(), photometry_round()));
+    check.is(value, 3e-5 * value).by(TECHNIQUES).effort(64, 5e-3).in_full(256, 5e-3)
 }
 
 fn with_file(mut check: Check) -> Check {
@@ -115,18 +159,13 @@ const TEXELS: usize = 256;
 
 /// A square lamp of two metres whose picture is white on one half and grey on the other, one metre above a floor.
 fn picture([x, y]: [f64; 2]) -> Check {
-    let corner = |[a, b]: [f64; 2]| {
-        format!("<vertex pos=\"{a} {b} 0\" uv0=\"{} {}\"/>", 0.5 * (a + 1.0), 0.5 * (b + 1.0))
-    };
-    let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(corner).concat();
+    let square = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[a, b]| [a, b, 0.0]);
     let texture = "<texture><path>halves.exr</path><exponent>1</exponent></texture>";
-    let lamp = format!(
-        "{}<mesh><name>lamp</name><normal_smoothing>false</normal_smoothing><embedded><expose_uv_set><index>0</index>\
-         <name>default</name></expose_uv_set>{corners}<triangle_set><material_name>lamp</material_name><tri>0 2 1</tri>\
-         <tri>0 3 2</tri></triangle_set></embedded></mesh>{}",
-        grey("lamp", 0.0),
-        mesh_light("lamp", &uniform(RADIANCE), [0.0, 0.0, 1.0], 1.0, texture)
-    );
+    // Seen from below, where it shines.
+    let mesh = hung::mesh("lamp", "lamp", square, 1.0)
+        .replace("<tri>0 1 2</tri><tri>0 2 3</tri>", "<tri>0 2 1</tri><tri>0 3 2</tri>");
+    let lamp =
+        grey("lamp", 0.0) + &mesh + &mesh_light("lamp", &uniform(RADIANCE), [0.0, 0.0, 1.0], 1.0, texture);
     // Texels stand at whole multiples of their distance, from the left edge on, and blend with their neighbours, round the
     // edge too.
     let texel = |i: usize| if i % TEXELS < TEXELS / 2 { 1.0 } else { DARKER };
@@ -154,6 +193,6 @@ fn picture([x, y]: [f64; 2]) -> Check {
     let name = format!("lamp with a picture, above ({x}, {y})");
     let mut check = Check::new(GROUP, name, about, scene).is(value, 0.0).effort(128, 1e-2);
     let value = |x: usize, _: usize| if x < TEXELS / 2 { 1.0 } else { DARKER as f32 };
-    check.files.push(("halves.exr".to_owned(), exr_of(TEXELS, value)));
+    check.files.push(("halves.exr".to_owned(), hung::picture([TEXELS; 2], value)));
     check.by(if y == 0.0 { TECHNIQUES } else { PATH })
 }

@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use super::super::check::{Check, Quantity, TECHNIQUES, Target};
-use super::super::text::{background, uniform};
-use super::{AROUND, AROUND_NITS, looking};
+use super::super::text::{ONE_PIXEL, background, camera, scene_file, settings, uniform};
+use super::{AROUND, AROUND_NITS, SIDE, integral, looking};
 
 const GROUP: &str = "Lens";
 
@@ -27,6 +27,7 @@ pub fn checks() -> Vec<Check> {
             .is(1.0, 0.0)
             .by(TECHNIQUES),
     ];
+    checks.extend([("pinhole", 1e-5), ("wide lens", 0.02)].map(|(name, radius)| vignetted(name, radius)));
     // On the axis a pixel sees the part of the lens's cone that a lamp behind or before the focus fills.
     let (radius, focus, half) = (0.01f64, 1.0f64, 0.003f64);
     for distance in [2.0f64, 0.6] {
@@ -41,22 +42,61 @@ pub fn checks() -> Vec<Check> {
         } else {
             square_in_disc(half, cone)
         };
-        let scene = lens(radius, focus, 1e-4, &[lamp]);
+        let scene = lens(radius, focus, 1e-5, &[lamp]);
         let about = format!(
             "Focused at {focus} m, a pixel on the axis gathers from a disc of radius {:.4} m at {distance} m, of which a lamp of {} m fills {inside:.5}.",
             cone,
             2.0 * half
         );
         let name = format!("lamp out of focus, at {distance} m");
-        let check = Check::new(GROUP, name, about, scene).unit(AROUND_NITS).by(TECHNIQUES).effort(1024, 2e-2);
-        // Rays through the rim are aslant by 0.01: cos⁴ of it, and the patch that is seen.
-        checks.push(check.row("", Quantity::Y, None, Target::Value(inside, 3e-4 * inside)));
+        let check = Check::new(GROUP, name, about, scene)
+            .unit(AROUND_NITS)
+            .by(TECHNIQUES)
+            .effort(512, 2e-2)
+            .in_full(1024, 2e-2);
+        // A point of the lens and the focus fix the ray, so that the disc is evenly filled; the picture is a hundredth of a
+        // millimetre of it.
+        checks.push(check.row("", Quantity::Y, None, Target::Value(inside, 0.0)));
     }
     checks
+}
+
+/// Natural vignetting: even light falls off towards the corners like cos⁴ of the angle to the axis.
+fn vignetted(name: &str, radius: f64) -> Check {
+    const TANGENT: f64 = 0.6;
+    // ∫ dx / (1 + x² + y²)², from the axis to x at a height y, in closed form; over y by quadrature.
+    let up_to = |x: f64, y: f64| {
+        let a = 1.0 + y * y;
+        0.5 / a * (x / (a + x * x) + (x / a.sqrt()).atan() / a.sqrt())
+    };
+    let mean = |[x0, x1, y0, y1]: [f64; 4]| {
+        integral(y0, y1, 2000, |y| up_to(x1, y) - up_to(x0, y)) / ((x1 - x0) * (y1 - y0))
+    };
+    let camera = camera([0.0; 3], [0.0, 0.0, 1.0], TANGENT, "").replace(
+        "<aperture_radius>1e-5</aperture_radius>",
+        &format!("<aperture_radius>{radius}</aperture_radius>"),
+    );
+    let scene = scene_file(&[settings(SIDE, ONE_PIXEL), camera, background(&uniform(AROUND))]);
+    let about = "With natural vignetting, which is the default, a picture of even light is darker off the axis by cos⁴ of the angle to \
+                 it: mean over areas.";
+    let mut check =
+        Check::new(GROUP, format!("cos⁴ of a {name}"), about, scene).unit(AROUND_NITS).by(TECHNIQUES);
+    let side = SIDE as usize;
+    for (what, [x0, x1, y0, y1]) in [
+        ("picture", [0, side, 0, side]),
+        ("middle", [6, 10, 6, 10]),
+        ("edge", [0, 2, 6, 10]),
+        ("corner", [14, 16, 14, 16]),
+    ] {
+        let at = |i: usize| TANGENT * (2.0 * i as f64 / side as f64 - 1.0);
+        let value = mean([x0, x1, y0, y1].map(at));
+        check = check.row(what, Quantity::Y, Some([x0, x1, y0, y1]), Target::Value(value, 0.0));
+    }
+    check.effort(64, 5e-3)
 }
 
 /// Share of a disc that a square round its middle covers, where the square's corners reach out of it.
 fn square_in_disc(half: f64, radius: f64) -> f64 {
     let across = |x: f64| half.min((radius * radius - x * x).max(0.0).sqrt());
-    4.0 * super::integral(0.0, half.min(radius), 200_000, across) / (PI * radius * radius)
+    4.0 * integral(0.0, half.min(radius), 200_000, across) / (PI * radius * radius)
 }

@@ -43,7 +43,8 @@ fn ball(n: f64, k: f64) -> Check {
          surroundings beside it."
     );
     let check = Check::new(GROUP, format!("smooth ball, n = {n}, k = {k}"), about, scene).unit(AROUND_NITS);
-    let mut check = check.is(1.0 - share + share * mean, 2e-6).by(TECHNIQUES).effort(256, 1e-2);
+    let mut check =
+        check.is(1.0 - share + share * mean, 2e-6).by(TECHNIQUES).effort(64, 1e-2).in_full(256, 1e-2);
     check.files.push(("metal.nk".to_owned(), constant_nk(n, k)));
     check
 }

@@ -2,12 +2,15 @@
 
 mod colour;
 mod direct;
+mod dispersion;
 mod furnaces;
 mod glass;
+mod gloss;
 mod lamps;
 mod lens;
 mod media;
 mod metal;
+mod orientation;
 mod patch;
 mod reference;
 mod sky;
@@ -15,10 +18,13 @@ mod sky;
 use super::check::Check;
 use super::shapes::Point;
 use super::text::{ONE_PIXEL, background, flat_camera, scene_file, settings, uniform};
+pub use metal::constant_nk;
 
 /// Luminance of spectral radiance 1 W m^-3 sr^-1 at all wavelengths, cd/m²: 683.002 · 1e-9 · ∫ȳ dλ,
 /// with ∫ȳ = 106.85692 nm over 360 to 830 nm (CIE 1931, 1 nm table).
 pub const NITS_PER_UNIFORM: f64 = 683.002e-9 * 106.85692;
+/// X, Y and Z of light of one radiance at all wavelengths, over Y: sums of the same table.
+pub const EVEN_LIGHT: [f64; 3] = [1.000_079_443, 1.0, 1.000_327_853];
 /// Spectral radiance of even surroundings, W m^-3 sr^-1; far from 1 so that no unit cancels.
 pub const AROUND: f64 = 3.0e4;
 /// The same in cd/m².
@@ -33,11 +39,14 @@ pub fn all() -> Vec<Check> {
         direct::checks(),
         lamps::checks(),
         glass::checks(),
+        dispersion::checks(),
+        gloss::checks(),
         metal::checks(),
         media::checks(),
         colour::checks(),
         lens::checks(),
         sky::checks(),
+        orientation::checks(),
         reference::checks(),
     ]
     .concat()

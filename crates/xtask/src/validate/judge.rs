@@ -1,0 +1,232 @@
+//! What pictures say: each number beside what it must be.
+
+use super::check::{Area, Check, Demand, Renderer, Row, Target};
+use super::console::Picture;
+use super::oracles::EVEN_LIGHT;
+use super::statistics::{Comparison, Estimate, quantile, sidak};
+
+/// Probability that any comparison of a run fails although nothing is wrong.
+pub const FAMILY: f64 = 1e-3;
+/// Relative difference that sums of single-precision numbers may make, and their storage in a file.
+const ROUNDING: f64 = 1e-5;
+/// Blocks along a side of a picture.
+pub const BLOCKS: usize = 4;
+
+/// What one comparison said.
+#[derive(Clone, Debug)]
+pub struct Verdict {
+    /// Who rendered.
+    pub renderer: Renderer,
+    /// Which number.
+    pub what: String,
+    /// What was expected, with what it is known to.
+    pub expected: Estimate,
+    /// Whether less is as good.
+    pub is_bound: bool,
+    /// What came out.
+    pub measured: Estimate,
+    /// The test.
+    pub comparison: Comparison,
+    /// What a right renderer may deviate by: what the value is known to, and rounding.
+    pub allowance: f64,
+    /// The share of the value that a deviation must have to be seen.
+    pub resolution: f64,
+    /// What that may be.
+    pub demand: f64,
+    /// The p-value below which it fails.
+    pub threshold: f64,
+    /// Why it failed, if it did.
+    pub failure: Option<&'static str>,
+}
+
+impl Verdict {
+    fn failing(mut self) -> Self {
+        self.failure = if !self.measured.mean.is_finite() {
+            Some("no number")
+        } else if self.comparison.p < self.threshold {
+            Some("deviates")
+        } else if self.resolution > self.demand {
+            Some("unresolved")
+        } else {
+            None
+        };
+        self
+    }
+}
+
+/// What is to be judged of a check.
+pub struct Judge<'a> {
+    /// The check.
+    pub check: &'a Check,
+    /// Its demand in this run.
+    pub demand: Demand,
+    /// For each renderer the pictures of its seeds.
+    pub renders: &'a [Vec<Picture>],
+    /// The p-value below which a comparison fails.
+    pub threshold: f64,
+}
+
+/// The p-value below which each of many comparisons fails.
+pub fn threshold(comparisons: usize) -> f64 {
+    sidak(FAMILY, comparisons)
+}
+
+impl Judge<'_> {
+    /// Judges all renders of a check.
+    pub fn verdicts(&self) -> Vec<Verdict> {
+        let mut verdicts = vec![];
+        for (i, renderer) in self.check.renderers.iter().enumerate() {
+            for row in &self.check.rows {
+                if matches!(row.target, Target::First(_)) && i == 0 {
+                    continue;
+                }
+                verdicts.push(self.row(row, *renderer, i));
+            }
+            verdicts.extend(self.flatness(*renderer, i));
+            if i > 0 && self.check.compares_pictures() {
+                let first = |area, c| self.block(&self.renders[0], area, c);
+                verdicts.push(self.blocks(*renderer, i, "beside the first", first, false));
+            }
+            verdicts.extend(self.broken_pixels(*renderer, i));
+        }
+        verdicts
+    }
+
+    fn row(&self, row: &Row, renderer: Renderer, i: usize) -> Verdict {
+        let unit = self.check.unit;
+        let measure = |pictures: &[Picture]| {
+            let values: Vec<f64> = pictures.iter().map(|p| p.value(row.quantity, row.area, unit)).collect();
+            Estimate::of(&values)
+        };
+        let measured = measure(&self.renders[i]);
+        let (expected, uncertainty) = match row.target {
+            Target::Value(value, uncertainty) => (Estimate::exact(value), uncertainty),
+            Target::AtMost(value) => (Estimate::exact(value), 0.0),
+            Target::Sampled(estimate) => (estimate, 0.0),
+            Target::First(slack) => {
+                let first = measure(&self.renders[0]);
+                (first, slack * first.mean.abs())
+            }
+        };
+        let is_bound = matches!(row.target, Target::AtMost(_));
+        let (comparison, allowance) = compared(&measured, &expected, uncertainty, is_bound);
+        // What is granted is not noticed.
+        let noise = quantile(self.threshold, comparison.freedom) * comparison.error;
+        Verdict {
+            renderer,
+            what: row.what.clone(),
+            expected,
+            is_bound,
+            measured,
+            comparison,
+            allowance,
+            resolution: (noise + allowance) / scale(&expected, unit),
+            demand: self.demand.resolution,
+            threshold: self.threshold,
+            failure: None,
+        }
+        .failing()
+    }
+
+    /// Each block of a picture that should have one value everywhere.
+    fn flatness(&self, renderer: Renderer, i: usize) -> Option<Verdict> {
+        let (value, is_bound) = match self.check.rows.first()?.target {
+            _ if !self.check.is_flat => return None,
+            Target::Value(value, _) => (value, false),
+            Target::AtMost(value) => (value, true),
+            Target::Sampled(_) | Target::First(_) => return None,
+        };
+        let flat = |_, c: usize| Estimate::exact(value * EVEN_LIGHT[c]);
+        Some(self.blocks(renderer, i, "all alike", flat, is_bound))
+    }
+
+    fn block(&self, pictures: &[Picture], area: Area, c: usize) -> Estimate {
+        let values: Vec<f64> = pictures.iter().map(|p| p.mean(Some(area))[c] / self.check.unit).collect();
+        Estimate::of(&values)
+    }
+
+    /// The most surprising of all blocks and of X, Y and Z, as if it were one test (Šidák).
+    fn blocks(
+        &self,
+        renderer: Renderer,
+        i: usize,
+        words: &str,
+        expected: impl Fn(Area, usize) -> Estimate,
+        is_bound: bool,
+    ) -> Verdict {
+        let mut worst: Option<(Estimate, Estimate, Comparison, f64)> = None;
+        let mut errors = vec![];
+        for area in areas(self.renders[i][0].size) {
+            for c in 0..3 {
+                let (a, b) = (self.block(&self.renders[i], area, c), expected(area, c));
+                let (comparison, allowance) = compared(&a, &b, 0.0, is_bound);
+                errors.push(comparison.error / scale(&b, self.check.unit));
+                if worst.as_ref().is_none_or(|(.., w, _)| comparison.p < w.p) {
+                    worst = Some((a, b, comparison, allowance));
+                }
+            }
+        }
+        let tests = errors.len();
+        let (measured, expected, mut comparison, allowance) = worst.expect("there are blocks");
+        comparison.p = -((-comparison.p).ln_1p() * tests as f64).exp_m1();
+        errors.sort_by(f64::total_cmp);
+        Verdict {
+            renderer,
+            what: format!("worst of {tests} block means, {words}"),
+            expected,
+            is_bound,
+            measured,
+            comparison,
+            allowance,
+            resolution: errors[tests / 2] * quantile(sidak(self.threshold, tests), comparison.freedom),
+            demand: self.check.blocks,
+            threshold: self.threshold,
+            failure: None,
+        }
+        .failing()
+    }
+
+    /// Pixels that hold no numbers, which no mean of an area elsewhere would tell of.
+    fn broken_pixels(&self, renderer: Renderer, i: usize) -> Option<Verdict> {
+        let pixels = self.renders[i].iter().flat_map(|picture| &picture.pixels);
+        let broken = pixels.filter(|pixel| pixel.iter().any(|v| !v.is_finite())).count();
+        let none = Estimate::exact(0.0);
+        (broken > 0).then(|| Verdict {
+            renderer,
+            what: "pixels that are no numbers".to_owned(),
+            expected: none,
+            is_bound: false,
+            measured: Estimate::exact(broken as f64),
+            comparison: Comparison { t: f64::INFINITY, error: 0.0, freedom: 1.0, p: 0.0 },
+            allowance: 0.0,
+            resolution: 0.0,
+            demand: 0.0,
+            threshold: self.threshold,
+            failure: Some("no number"),
+        })
+    }
+}
+
+/// A share is of this: the value, or where that is 0 what one is in the picture's unit.
+fn scale(expected: &Estimate, unit: f64) -> f64 {
+    if expected.mean == 0.0 { unit } else { expected.mean.abs() }
+}
+
+/// How surprising a number is beside another, and what was granted.
+fn compared(measured: &Estimate, expected: &Estimate, uncertainty: f64, is_bound: bool) -> (Comparison, f64) {
+    let allowance = uncertainty + ROUNDING * expected.mean.abs().max(measured.mean.abs());
+    let mut comparison = Comparison::of(measured, expected, allowance);
+    if is_bound && measured.mean <= expected.mean {
+        comparison = Comparison { t: comparison.t.min(0.0), p: 1.0, ..comparison };
+    }
+    (comparison, allowance)
+}
+
+/// Columns and rows of the blocks of a picture.
+fn areas([width, height]: [usize; 2]) -> impl Iterator<Item = Area> {
+    let cut = |i: usize, n: usize| i * n / BLOCKS;
+    (0..BLOCKS * BLOCKS).map(move |block| {
+        let (x, y) = (block % BLOCKS, block / BLOCKS);
+        [cut(x, width), cut(x + 1, width), cut(y, height), cut(y + 1, height)]
+    })
+}
