@@ -186,7 +186,8 @@ pub const KEYFRAME: Field = Field::new(
 pub static KEYFRAME_BLOCK: Block = Block::new(
     "keyframe",
     "Where a camera or a model stands at a time, as later versions write it. Between two of them it moves evenly and \
-     turns evenly, the shorter way; before the first and after the last it stands still.",
+     turns evenly, the shorter way; before the first and after the last it stands still. Of several at one time the last \
+     counts from then on: it jumps there.",
     &[
         Field::new(
             "time",

@@ -45,7 +45,7 @@ fn main() -> ExitCode {
 
 fn run(arguments: &Arguments, console: &mut Console) -> u8 {
     if arguments.help {
-        return answer(&flags::help(), console);
+        return answer(&flags::help("indigo_console SCENE.igs"), console);
     }
     if arguments.man {
         return answer(&flags::man(), console);

@@ -282,7 +282,7 @@ impl Accel {
     }
 
     fn test_plane<T: Float>(&self, object: u32, ray: &Ray, hit: &mut RawHit<T>) -> bool {
-        let Object::Plane { normal, dist } = self.objects[object as usize] else { return false };
+        let Object::Plane { normal, dist, .. } = self.objects[object as usize] else { return false };
         let t = hit_plane(ray, normal, dist, Real::from_f64(hit.t.to_f64()));
         set_shape_hit(hit, t, object)
     }
@@ -323,8 +323,8 @@ fn check_movements(movements: &[(u32, Movement)], objects: &[Object]) -> Result<
         let Some(Object::Mesh { mesh, .. }) = objects.get(*object as usize) else {
             return Err(BuildError::Unsound(*object as usize));
         };
-        let at = |time| Object::Mesh { mesh: *mesh, transform: movement.at(time) };
-        if !movement.times().all(|time| at(time).is_sound()) {
+        let at = |transform| Object::Mesh { mesh: *mesh, transform };
+        if !movement.places().all(|place| at(place).is_sound()) {
             return Err(BuildError::Unsound(*object as usize));
         }
     }

@@ -25,6 +25,8 @@ pub enum Object {
         normal: Vec3d,
         /// Distance from the origin along the normal, in lengths of the normal.
         dist: f64,
+        /// From the point of the plane that is nearest to this one its texture coordinates count.
+        uv_origin: Vec3d,
     },
 }
 
@@ -42,13 +44,15 @@ impl Object {
                 images.iter().flatten().chain([&transform.origin(), &origin]).all(fits)
             }
             Self::Sphere { center, radius } => center.is_finite() && radius > 0.0 && radius.is_finite(),
-            Self::Plane { normal, dist } => normal.try_normalized().is_some() && dist.is_finite(),
+            Self::Plane { normal, dist, uv_origin } => {
+                normal.try_normalized().is_some() && dist.is_finite() && uv_origin.is_finite()
+            }
         }
     }
 
     /// Gives a plane a unit normal.
     pub(crate) fn normalize(&mut self) {
-        if let Self::Plane { normal, dist } = self {
+        if let Self::Plane { normal, dist, .. } = self {
             // Scale first, as `try_normalized` does, so that extreme lengths keep their digits.
             let largest = normal.abs().max_component();
             let scaled = *normal / largest;

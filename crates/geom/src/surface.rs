@@ -64,7 +64,7 @@ impl Accel {
                 let (p, n) = onto_sphere(along, center, radius);
                 shape_point(p, center.abs() + Vec3d::splat(radius), n, hit.object)
             }
-            Object::Plane { normal, dist } => {
+            Object::Plane { normal, dist, .. } => {
                 let (p, n) = onto_plane(along, normal, dist);
                 shape_point(p, along.abs(), n, hit.object)
             }

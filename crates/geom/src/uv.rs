@@ -11,7 +11,7 @@ impl Accel {
     ///
     /// Meshes: the given set, or (0, 0) where the mesh lacks it. Spheres: longitude from +x towards
     /// +y and colatitude from +z, both scaled to 0..1, whatever the set. Planes: metres along the
-    /// two axes of the frame round the normal, from the point nearest the origin.
+    /// two axes of the frame round the normal, from the point nearest to a given one.
     pub fn uv(&self, point: &SurfacePoint, set: u32) -> Vec2 {
         let uv = match self.objects[point.object as usize] {
             Object::Mesh { .. } => self.mesh_uv(point, set).unwrap_or(Vec2::new(0.0, 0.0)),
@@ -21,9 +21,9 @@ impl Accel {
                 let turned = if longitude < 0.0 { longitude + TAU } else { longitude };
                 Vec2::new(turned / TAU, n.z.clamp(-1.0, 1.0).acos() / PI)
             }
-            Object::Plane { .. } => {
+            Object::Plane { uv_origin, .. } => {
                 let frame = Frame::from_normal(point.n_g);
-                let p = point.p.cast::<f64>();
+                let p = point.p.cast::<f64>() - uv_origin;
                 Vec2::new(p.dot(frame.s.cast()), p.dot(frame.t.cast()))
             }
         };

@@ -82,8 +82,8 @@ fn a_sphere_from_inside_and_outside_and_at_a_graze() {
 #[test]
 fn planes_are_met_from_both_sides_and_face_their_normal() {
     let accel = shapes(vec![
-        Object::Plane { normal: Vec3d::new(0.0, 0.0, 5.0), dist: 10.0 },
-        Object::Plane { normal: Vec3d::new(0.0, 0.0, -1e-30), dist: 1e-30 },
+        Object::Plane { normal: Vec3d::new(0.0, 0.0, 5.0), dist: 10.0, uv_origin: Vec3d::ZERO },
+        Object::Plane { normal: Vec3d::new(0.0, 0.0, -1e-30), dist: 1e-30, uv_origin: Vec3d::ZERO },
     ]);
     let down = ray(Vec3d::new(1.0, 2.0, 7.0), Vec3d::new(0.0, 0.0, -0.5));
     let hit = accel.intersect(&down).unwrap();
@@ -266,7 +266,7 @@ fn a_scene_of_everything_has_the_right_bounds_and_hits() {
     let objects = vec![
         place(0, Transform::IDENTITY),
         Object::Sphere { center: Vec3d::new(0.0, 0.0, 5.0), radius: 1.0 },
-        Object::Plane { normal: Vec3d::new(0.0, 0.0, 1.0), dist: -3.0 },
+        Object::Plane { normal: Vec3d::new(0.0, 0.0, 1.0), dist: -3.0, uv_origin: Vec3d::ZERO },
         place(1, Transform::translation(Vec3d::new(5.0, 0.0, 0.0))),
         place(1, Transform::translation(Vec3d::new(-5.0, 0.0, 0.0))),
     ];

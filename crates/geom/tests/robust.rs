@@ -169,7 +169,7 @@ fn everything(kernel: KernelChoice) -> Accel {
         place(1, Transform::translation(Vec3d::new(2.0, 0.0, 0.0))),
         place(1, Transform::translation(Vec3d::new(-2.0, 0.0, 0.0))),
         Object::Sphere { center: Vec3d::new(0.0, 3.0, 0.0), radius: 1.0 },
-        Object::Plane { normal: Vec3d::new(0.0, 1.0, 0.0), dist: -2.0 },
+        Object::Plane { normal: Vec3d::new(0.0, 1.0, 0.0), dist: -2.0, uv_origin: Vec3d::ZERO },
     ];
     Accel::build(meshes, objects, &BuildOptions { bake_limit: 0, ..options(kernel) }, &NoStore).unwrap()
 }
@@ -261,9 +261,15 @@ fn unsound_scenes_are_errors() {
     for radius in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert_eq!(build(Object::Sphere { center: c, radius }), Some(BuildError::Unsound(0)));
     }
-    assert_eq!(build(Object::Plane { normal: c, dist: 0.0 }), Some(BuildError::Unsound(0)));
+    assert_eq!(
+        build(Object::Plane { normal: c, dist: 0.0, uv_origin: Vec3d::ZERO }),
+        Some(BuildError::Unsound(0))
+    );
     let up = Vec3d::new(0.0, 0.0, 1.0);
-    assert_eq!(build(Object::Plane { normal: up, dist: f64::NAN }), Some(BuildError::Unsound(0)));
+    assert_eq!(
+        build(Object::Plane { normal: up, dist: f64::NAN, uv_origin: Vec3d::ZERO }),
+        Some(BuildError::Unsound(0))
+    );
 }
 
 #[test]

@@ -7,7 +7,7 @@ use crate::log::{Line, Weight};
 use crate::panels::{self, Textures};
 use crate::recent::Recent;
 use crate::scene_file::SceneFile;
-use crate::state::{Picture, State};
+use crate::state::{Foot, Picture, State};
 use crate::{theme, words};
 use eframe::egui::{
     self, CentralPanel, ColorImage, Context, Frame, Margin, Panel, TextureFilter, TextureOptions, Ui,
@@ -123,6 +123,8 @@ impl App {
     }
 
     fn tell_written(&mut self, files: &[PathBuf]) {
+        // That it worked is to be seen.
+        self.state.foot = Foot::Log;
         for file in files {
             self.say(words::saved(file));
         }
@@ -142,6 +144,8 @@ impl App {
         let Some(file) = &self.state.file else { return };
         match file.save() {
             Ok(files) => {
+                // What the files say of the mode now was said last.
+                self.state.mode_is_chosen &= !file.changes_any(&["bidirectional", "metropolis", "hybrid"]);
                 self.tell_written(&files);
                 self.state.file = None;
                 self.state.act(Action::Restart);
@@ -186,14 +190,14 @@ impl App {
                 Action::Command(command) => self.command(command),
                 Action::Open(path) => {
                     // Who opens a scene wants that one next.
-                    self.state.queue.runs = false;
+                    self.state.queue.leave();
                     self.open(&path, true, context);
                 }
                 Action::Ask(ask) => self.ask(ask, context),
                 Action::Restart => {
-                    if let Some(request) = self.state.request_in_mode() {
+                    if let Some(request) = self.state.request_again() {
                         self.load(request);
-                    } else if let Some(path) = self.state.path.clone() {
+                    } else if let Some(path) = self.state.wanted.clone() {
                         self.open(Path::new(&path), false, context);
                     }
                 }
@@ -212,6 +216,9 @@ impl App {
     fn command(&mut self, command: Command) {
         if let (Command::SetPicture(picture), Some(engine)) = (&command, &self.engine) {
             engine.desk.set_settings((**picture).clone());
+        }
+        if matches!(command, Command::Cancel) {
+            self.state.wanted.clone_from(&self.state.path);
         }
         self.send(command);
     }
@@ -234,7 +241,7 @@ impl App {
     }
 
     fn load(&mut self, request: Request) {
-        self.state.path = Some(request.path.clone());
+        self.state.wanted = Some(request.path.clone());
         self.send(Command::Open(Box::new(request)));
     }
 
@@ -256,7 +263,7 @@ impl App {
     /// Asks for a path by the desktop's own dialog, on a thread that waits for it.
     fn ask(&mut self, ask: Ask, context: &Context) {
         let dialog = rfd::AsyncFileDialog::new();
-        let folder = self.state.path.as_deref().and_then(|path| Path::new(path).parent());
+        let folder = self.state.wanted.as_deref().and_then(|path| Path::new(path).parent());
         let dialog = match folder.filter(|folder| folder.is_dir()) {
             Some(folder) => dialog.set_directory(folder),
             None => dialog,

@@ -42,7 +42,7 @@ fn run() -> u8 {
         Err(message) => return refuse(&message, BAD_INPUT),
     };
     if arguments.help {
-        return answer(&format!("{}{}", words::HELP, flags::help()));
+        return answer(&format!("{}{}", words::HELP, flags::help("indigo [SCENE.igs]")));
     }
     if arguments.version {
         return answer(&format!("{VERSION}\n"));
@@ -55,6 +55,8 @@ fn run() -> u8 {
     }
     match open_window(arguments) {
         Ok(()) => RENDERED,
+        // What the system says of this is the place in somebody's source.
+        Err(eframe::Error::WinitEventLoop(_)) => refuse(words::DEAF_DISPLAY, FAILED),
         Err(error) => refuse(&words::no_window(&error.to_string()), FAILED),
     }
 }

@@ -45,6 +45,12 @@ impl Queue {
         Some(path.clone())
     }
 
+    /// Something else is opened: no further scene is begun, and the one whose turn it was is left as it is.
+    pub fn leave(&mut self) {
+        self.done();
+        self.runs = false;
+    }
+
     /// The scene whose turn it was is done; whether the next is to begin.
     pub fn done(&mut self) -> bool {
         for scene in &mut self.scenes {

@@ -48,6 +48,11 @@ impl SceneFile {
         way.iter().try_fold(&self.root, |element, &child| element.children.get(child))
     }
 
+    /// Whether elements of any of these names are changed.
+    pub fn changes_any(&self, names: &[&str]) -> bool {
+        self.changes.keys().filter_map(|way| self.at(way)).any(|element| names.contains(&&*element.name))
+    }
+
     /// Writes the changes to the files that they are in; these.
     ///
     /// # Errors

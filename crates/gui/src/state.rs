@@ -5,7 +5,7 @@ mod news;
 use crate::action::Action;
 use crate::comparison::Comparison;
 use crate::controls::Controls;
-use crate::engine::{Command, Histogram, LoadedFacts, Phase, Request};
+use crate::engine::{Command, Histogram, Kept, LoadedFacts, Phase, Request};
 use crate::log::{Finding, Line, Log, SourceView, Weight};
 use crate::part::Part;
 use crate::queue::Queue;
@@ -38,7 +38,7 @@ pub enum Tool {
 }
 
 /// What the panel on the right shows.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Tab {
     /// How the picture is developed.
     #[default]
@@ -95,8 +95,10 @@ pub struct State {
     pub phase: Phase,
     /// The scene that is open.
     pub facts: Option<LoadedFacts>,
-    /// The path that is open or being opened.
+    /// The path of the scene or film that is open.
     pub path: Option<String>,
+    /// The path that was asked for last, whether or not it could be opened.
+    pub wanted: Option<String>,
     /// How far the render is.
     pub progress: Option<Progress>,
     /// Memory that the program holds, in bytes.
@@ -121,6 +123,8 @@ pub struct State {
     pub work: Option<Work>,
     /// How light is to be transported.
     pub mode: Option<Mode>,
+    /// Whether that was chosen here, whatever the scene's files say.
+    pub mode_is_chosen: bool,
     /// The part in renders of many machines, from the next start on.
     pub part: Part,
     /// How things stand with slaves, where this is or was their master.
@@ -168,6 +172,7 @@ impl State {
             phase: Phase::Empty,
             facts: None,
             path: None,
+            wanted: None,
             progress: None,
             memory: None,
             log: Log::default(),
@@ -180,6 +185,7 @@ impl State {
             responses: crate::controls::responses(),
             work: None,
             mode: None,
+            mode_is_chosen: false,
             part: Part::of(&arguments),
             arguments,
             slaves: None,
@@ -266,14 +272,25 @@ impl State {
         // A scene is opened to be rendered here, whatever else this machine may be.
         let part = if self.part.role == Some(Role::Slave) { None } else { self.part.role };
         let part = Part { role: part, ..self.part.clone() };
-        Request { path: path.to_owned(), arguments, part, film, starts, halts_at: None }
+        Request { path: path.to_owned(), arguments, part, film, starts, halts_at: None, kept: None }
     }
 
-    /// The request for the open scene in the mode that is chosen.
-    pub fn request_in_mode(&self) -> Option<Request> {
-        let (path, mode) = (self.path.as_ref()?, self.mode?);
-        let mut request = Request { film: None, ..self.request(path, self.is_under_way()) };
-        request.arguments.settings.extend(mode.overrides());
+    /// The request for the open scene once more, as it is rendered now; `None` where another was asked for since.
+    pub fn request_again(&self) -> Option<Request> {
+        let (path, mode, facts) = (self.path.as_ref()?, self.mode?, self.facts.as_ref()?);
+        if self.wanted.as_ref() != Some(path) {
+            return None;
+        }
+        let of_files = Work::of(&facts.output, self.arguments.halt_error);
+        let mut request = Request {
+            film: None,
+            halts_at: self.queue.runs.then_some(self.queue.halts_at),
+            kept: self.work.map(|work| Kept { work, of_files }),
+            ..self.request(path, self.is_under_way())
+        };
+        if self.mode_is_chosen {
+            request.arguments.settings.extend(mode.overrides());
+        }
         Some(request)
     }
 
@@ -301,18 +318,32 @@ impl State {
         }
     }
 
-    /// Takes a pixel of the picture for grey.
-    pub fn take_grey(&mut self, [x, y]: [u32; 2]) {
+    /// Takes a place of the picture for grey: the mean of the pixels around, which are noisy one by one.
+    pub fn take_grey(&mut self, at: [u32; 2]) {
         let (Some(picture), Some(controls)) = (&self.picture, &mut self.controls) else { return };
-        let index = y as usize * picture.light.size.width() as usize + x as usize;
-        let Some(&[x, y, z, _]) = picture.light.pixels.get(index) else { return };
-        if controls.take_grey([x, y, z]) {
+        if controls.take_grey(mean_around(&picture.light, at)) {
             self.tool = Tool::Pan;
             self.controls_changed();
         } else {
             self.log.add(Line { weight: Weight::Warning, text: words::NO_GREY.to_owned() });
         }
     }
+}
+
+/// The mean light of the five by five pixels round one, as far as they are in the picture.
+fn mean_around(light: &XyzImage, [x, y]: [u32; 2]) -> [f32; 3] {
+    let (width, height) = (light.size.width(), light.size.height());
+    let around = |middle: u32, end: u32| middle.saturating_sub(2)..(middle.saturating_add(3)).min(end);
+    let places = around(y, height).flat_map(|y| around(x, width).map(move |x| (x, y)));
+    let (mut sum, mut count) = ([0.0; 3], 0.0);
+    for (x, y) in places {
+        let Some(pixel) = light.pixels.get(y as usize * width as usize + x as usize) else { continue };
+        for (sum, value) in sum.iter_mut().zip(pixel) {
+            *sum += value;
+        }
+        count += 1.0;
+    }
+    sum.map(|sum| sum / f32::max(count, 1.0))
 }
 
 #[cfg(test)]

@@ -14,6 +14,7 @@ macro_rules! texts {
 texts! {
     PROGRAM = "Indigo";
     HELP = "The window takes the options of a render; what else they do is done by indigo_console.\n\n";
+    DEAF_DISPLAY = "the display that DISPLAY or WAYLAND_DISPLAY names cannot be opened: name one that can be, or render with indigo_console";
     NO_DISPLAY = "there is no display to open a window on: set DISPLAY or WAYLAND_DISPLAY, or render with indigo_console";
 }
 

@@ -20,11 +20,17 @@ pub(crate) fn downsize(
 ) -> Vec<[f32; 4]> {
     let [width, height] = extent(region);
     let factor = size.super_sample() as usize;
-    let columns = Kernel::new(filter, width, factor);
-    let rows = Kernel::new(filter, height, factor);
     if width == 0 || height == 0 {
         return Vec::new();
     }
+    if factor == 1 {
+        // A pixel is its own, without buffers between.
+        let mut out = fresh(vec![[0.0; 4]; width * height]);
+        out.par_chunks_mut(width).enumerate().for_each(|(y, row)| fill_row(y, row));
+        return out;
+    }
+    let columns = Kernel::new(filter, width, factor);
+    let rows = Kernel::new(filter, height, factor);
     // Along the rows first, so that only narrow rows need to be kept.
     let mut narrow = fresh(vec![[0.0; 4]; width * height * factor]);
     narrow.par_chunks_mut(width).enumerate().for_each_init(
@@ -58,16 +64,11 @@ struct Taps {
 }
 
 impl Kernel {
-    /// For `len` output pixels of `factor` internal ones each. Without super-sampling a pixel is
-    /// its own.
+    /// For `len` output pixels of `factor` internal ones each.
     fn new(filter: Filter, len: usize, factor: usize) -> Self {
         let mut kernel = Self { taps: Vec::with_capacity(len), weights: Vec::new() };
         for i in 0..len {
-            if factor == 1 {
-                kernel.push(i, std::iter::once(1.0));
-            } else {
-                kernel.push_filter(filter, i, len * factor, factor as f64);
-            }
+            kernel.push_filter(filter, i, len * factor, factor as f64);
         }
         kernel
     }

@@ -46,7 +46,10 @@ fn product(a: (f64, Vec3d), b: (f64, Vec3d)) -> (f64, Vec3d) {
 /// A motion through poses. Before the first and after the last it stands still.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Motion {
+    /// When it begins.
+    start: f64,
     first: Pose,
+    last: Pose,
     legs: Box<[Leg]>,
 }
 
@@ -87,51 +90,57 @@ impl Motion {
     /// without poses.
     pub fn new(mut keys: Vec<(f64, Pose)>) -> Option<Self> {
         keys.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let first = keys.first()?.1;
+        let (start, first) = *keys.first()?;
+        let (_, last) = *keys.last()?;
         let legs = keys.windows(2).filter(|w| w[0].0 < w[1].0).map(|w| Leg::new(w[0], w[1])).collect();
-        Some(Self { first, legs })
+        Some(Self { start, first, last, legs })
     }
 
     /// No motion.
     pub fn still(pose: Pose) -> Self {
-        Self { first: pose, legs: Box::default() }
+        Self { start: 0.0, first: pose, last: pose, legs: Box::default() }
     }
 
     /// The pose at a time.
     pub fn at(&self, time: f64) -> Pose {
-        let after = self.legs.partition_point(|leg| leg.end <= time);
-        match self.legs.get(after).or(self.legs.last()) {
-            Some(leg) => leg.at(time),
-            None => self.first,
+        if time < self.start {
+            return self.first;
         }
+        let after = self.legs.partition_point(|leg| leg.end <= time);
+        self.legs.get(after).map_or(self.last, |leg| leg.at(time))
     }
 
     /// Whether it is not the same pose from time 0 to 1.
     pub fn moves(&self) -> bool {
         let start = self.at(0.0);
-        self.legs.iter().filter(|leg| leg.end > 0.0 && leg.start < 1.0).any(|leg| {
-            let end = leg.at(leg.end.min(1.0));
-            leg.to != leg.from.pos || leg.half_turns > 0.0 || end != start
-        })
+        self.poses(1.0).iter().any(|pose| *pose != start)
     }
 
-    /// Times from 0 to 1, in order, between which it turns by no more than `most_turns` of 360° and its places lie on a
-    /// line; with both ends.
-    pub fn times(&self, most_turns: f64) -> Vec<f64> {
-        let mut times = vec![0.0, 1.0];
-        for leg in &self.legs {
-            let steps = (2.0 * leg.half_turns / most_turns).ceil().max(1.0);
-            let at = (0..=steps as u32).map(|i| leg.start + (leg.end - leg.start) * f64::from(i) / steps);
-            times.extend(at.filter(|t| (0.0..=1.0).contains(t)));
+    /// Poses from time 0 to 1, between neighbours of which it turns by no more than `most_turns` of 360° and its place moves
+    /// on a line, or jumps: both ends, and of each leg what is left before a jump, too.
+    pub fn poses(&self, most_turns: f64) -> Vec<Pose> {
+        let mut poses = vec![self.at(0.0)];
+        if self.start > 0.0 && self.start < 1.0 {
+            poses.push(self.first);
         }
-        times.sort_by(f64::total_cmp);
-        times
+        for leg in &self.legs {
+            let (start, end) = (leg.start.max(0.0), leg.end.min(1.0));
+            if start < end {
+                let turns = 2.0 * leg.half_turns * (end - start) / (leg.end - leg.start);
+                let steps = (turns / most_turns).ceil().max(1.0);
+                poses
+                    .extend((0..=steps as u32).map(|i| leg.at(start + (end - start) * f64::from(i) / steps)));
+            }
+        }
+        poses.push(self.at(1.0));
+        poses
     }
 
     /// The same motion elsewhere.
     #[must_use]
     pub fn moved_by(mut self, by: Vec3d) -> Self {
         self.first.pos += by;
+        self.last.pos += by;
         for leg in &mut self.legs {
             leg.from.pos += by;
             leg.to += by;
@@ -189,7 +198,7 @@ mod tests {
         let v = Vec3d::new(0.3, -0.5, 0.8);
         assert!(close(motion.at(0.5).rotation() * v, middle * v));
         assert!(close(motion.at(1.0).rotation() * v, to.rotation() * v));
-        assert_eq!(motion.times(1.0 / 36.0).len(), 2 + 3);
+        assert_eq!(motion.poses(1.0 / 30.0).len(), 2 + 3);
     }
 
     #[test]
@@ -200,6 +209,23 @@ mod tests {
         assert!(!moves(vec![(1.0, pose(1.0, 0.0)), (2.0, pose(3.0, 0.0))]));
         assert!(moves(vec![(0.0, pose(1.0, 0.0)), (5.208, pose(3.0, 0.0))]));
         assert!(moves(vec![(0.0, pose(1.0, 0.0)), (0.5, pose(3.0, 0.0)), (1.0, pose(1.0, 0.0))]));
+        // In no time, from one place to another: where it was is a place that it had.
+        let jump = vec![
+            (0.0, pose(-2.0, 0.0)),
+            (0.5, pose(2.0, 0.0)),
+            (0.5, pose(-2.0, 0.0)),
+            (1.0, pose(-2.0, 0.0)),
+        ];
+        assert!(moves(jump.clone()));
+        let jumping = Motion::new(jump).expect("poses");
+        assert!(jumping.poses(1.0).contains(&pose(2.0, 0.0)));
+        assert_eq!((jumping.at(0.25).pos.x, jumping.at(0.5).pos.x), (0.0, -2.0));
+        // The last in the list counts from then on, at both ends too.
+        let twice =
+            |time: f64| Motion::new(vec![(time, pose(-2.0, 0.0)), (time, pose(2.0, 0.0))]).expect("poses");
+        assert_eq!([-0.1, 0.0, 0.5].map(|time| twice(0.0).at(time).pos.x), [-2.0, 2.0, 2.0]);
+        assert!(!twice(0.0).moves() && twice(0.5).moves() && !twice(2.0).moves());
+        assert_eq!(twice(0.5).poses(1.0), [-2.0, -2.0, 2.0].map(|x| pose(x, 0.0)));
         assert!(Motion::new(vec![]).is_none());
         let shifted = Motion::new(vec![(0.0, pose(1.0, 0.0)), (1.0, pose(3.0, 0.0))]).expect("poses");
         assert_eq!(shifted.moved_by(Vec3d::new(0.0, 2.0, 0.0)).at(0.5).pos, Vec3d::new(2.0, 2.0, 0.0));

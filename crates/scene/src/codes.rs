@@ -55,6 +55,8 @@ indigo_decl::codes! {
     BEYOND_FRACTIONS = "W0328", "(a `blend_map` with `<b>3</b>`)";
     /// A mesh that bounds a medium and is not closed.
     NOT_CLOSED = "W0329", "(a square whose material has an `internal_medium_name`)";
+    /// A turn between neighbouring keys that goes the other, shorter way.
+    LONG_TURN = "W0330", "(a `model` with `keyframe`s whose angles about one axis are 0 and 5)";
     /// A name that nothing defines.
     UNKNOWN_NAME = "E0301", "<sphere><center>0 0 0</center><radius>1</radius><material_name>whiet</material_name></sphere>";
     /// A file that cannot be had.

@@ -7,12 +7,9 @@ use std::fmt::Write as _;
 pub const SUMMARY: &str =
     "Rendering goes on, and the picture is saved again and again, until Ctrl-C or a halting condition.";
 
-/// The help.
-pub fn help() -> String {
-    let mut text = String::from(
-        "Indigo renders scenes by the laws of light.\n\n\
-         Usage: indigo_console SCENE.igs [options]\n\n",
-    );
+/// The help of a program that is used so: its name and the scene.
+pub fn help(usage: &str) -> String {
+    let mut text = format!("Indigo renders scenes by the laws of light.\n\nUsage: {usage} [options]\n\n");
     for line in wrap(SUMMARY, 90) {
         text += &line;
         text.push('\n');

@@ -78,7 +78,7 @@ fn mistakes_get_a_helpful_answer() {
 
 #[test]
 fn every_option_is_in_the_help_and_has_a_name_of_its_own() {
-    let help = help();
+    let help = help("indigo_console SCENE.igs");
     for (i, flag) in FLAGS.iter().enumerate() {
         assert!(help.contains(&format!("  -{}", flag.name)));
         assert!(FLAGS[i + 1..].iter().all(|f| f.name != flag.name));

@@ -170,8 +170,8 @@ fn sensor(film: &FilmState, settings: &PictureSettings) -> Option<(XyzImage, boo
 
 fn on_screen(picture: &Picture) -> (ColorImage, Histogram) {
     let codes = picture.to_screen();
-    let histogram = histogram(&codes);
-    let pixels = codes.iter().map(|&[r, g, b, _]| Color32::from_rgb(r, g, b)).collect();
+    let pixels = || codes.iter().map(|&[r, g, b, _]| Color32::from_rgb(r, g, b)).collect();
+    let (histogram, pixels) = rayon::join(|| histogram(&codes), pixels);
     (ColorImage::new([picture.width as usize, picture.height as usize], pixels), histogram)
 }
 

@@ -80,6 +80,17 @@ pub struct Request {
     pub starts: bool,
     /// Samples per pixel at which to halt where the scene has no condition of its own.
     pub halts_at: Option<u64>,
+    /// How it was rendered before.
+    pub kept: Option<Kept>,
+}
+
+/// How a scene was rendered, which it is again if its files say what they said.
+#[derive(Clone, Copy, Debug)]
+pub struct Kept {
+    /// As the controls had it.
+    pub work: Work,
+    /// As the files had it.
+    pub of_files: Work,
 }
 
 /// What the engine is at.
@@ -108,8 +119,8 @@ pub enum Phase {
 pub enum Update {
     /// What the engine is at now.
     Phase(Phase),
-    /// A scene is there.
-    Scene(Box<LoadedFacts>),
+    /// A scene is there, and how it is rendered where it was loaded just now.
+    Scene(Box<LoadedFacts>, Option<Work>),
     /// What was found in the files of a scene, whether or not it can be rendered.
     Findings(Vec<Finding>, Arc<SourceMap>),
     /// A film is looked at that is of no scene.

@@ -2,6 +2,8 @@
 
 use super::{Command, Engine, Phase, Request, Update, load};
 use crate::part::Part;
+use crate::recent::Recent;
+use crate::state::State;
 use crate::words;
 use eframe::egui::Context;
 use indigo_front::flags::Arguments;
@@ -59,6 +61,7 @@ impl LargeScene {
             film: None,
             starts: false,
             halts_at: None,
+            kept: None,
         }
     }
 }
@@ -137,7 +140,7 @@ fn the_engine_listens_while_a_million_triangles_are_loaded() {
     engine.send(Command::Save(OneFile::Picture, "x.png".into()));
     // An answer to what came later, and nothing of the scene before it.
     wait_for(&engine, "answer", |update| match update {
-        Update::Scene(_) => panic!("it waited for the scene"),
+        Update::Scene(..) => panic!("it waited for the scene"),
         Update::Line(line) => (line.text == words::NOTHING_TO_SAVE).then_some(()),
         _ => None,
     });
@@ -145,8 +148,72 @@ fn the_engine_listens_while_a_million_triangles_are_loaded() {
     wait_for(&engine, "end of loading", is_phase(Phase::Empty));
     engine.send(Command::Open(Box::new(scene.request())));
     let facts = wait_for(&engine, "scene", |update| match update {
-        Update::Scene(facts) => Some(facts),
+        Update::Scene(facts, _) => Some(facts),
         _ => None,
     });
     assert_eq!(facts.stats.geometry.triangles, 2 * SHEET[0] * SHEET[1]);
+}
+
+/// Loads what is asked for, and tells the window's state of it.
+fn load_into(state: &mut State, engine: &Engine, request: Request) {
+    state.wanted = Some(request.path.clone());
+    engine.send(Command::Open(Box::new(request)));
+    wait_for(engine, "end of loading", |update| {
+        let has_ended = matches!(update, Update::Phase(Phase::Ready | Phase::Empty));
+        // The findings and the scene come before.
+        state.take(update);
+        has_ended.then_some(())
+    });
+}
+
+/// What was tried out on a scene stays when it is loaded once more, but for what its files say otherwise now; and a scene
+/// that cannot be loaded changes nothing of the one that is open.
+#[test]
+fn what_is_loaded_once_more_is_as_it_was_unless_its_files_changed() {
+    let folder = std::env::temp_dir().join(format!("indigo-engine-{}-again", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder for the test");
+    let (start, end) = (SCENE.find("<mesh>").expect("a mesh"), SCENE.find("</scene>").expect("an end"));
+    let scene = format!("{}{}", &SCENE[..start], &SCENE[end..]);
+    let path = |name: &str| folder.join(name).display().to_string();
+    let write = |name: &str, text: &str| std::fs::write(path(name), text).expect("a scene is written");
+    write("a.igs", &scene);
+    write("broken.igs", "<scene><camera></scene>");
+
+    let engine = Engine::new(&Context::default()).expect("threads");
+    let mut state = State::new(Arguments::default(), Recent::default());
+    let request = state.request(&path("a.igs"), false);
+    load_into(&mut state, &engine, request);
+    assert_eq!(state.path, Some(path("a.igs")));
+    let scale = |state: &State| state.controls.as_ref().map(|controls| controls.scale);
+    assert_eq!(scale(&state), Some(1.0));
+    state.brighten(1.0);
+    let work = state.work.as_mut().expect("a scene");
+    work.halt_spp = (true, 6);
+
+    let again = state.request_again().expect("a scene");
+    assert!(again.arguments.settings.is_empty(), "no mode was chosen");
+    load_into(&mut state, &engine, again);
+    assert_eq!((scale(&state), state.work.map(|work| work.halt_spp)), (Some(2.0), Some((true, 6))));
+
+    // Another scene fails, and is what is tried again.
+    let request = state.request(&path("broken.igs"), false);
+    load_into(&mut state, &engine, request);
+    assert_eq!((state.path.clone(), scale(&state)), (Some(path("a.igs")), Some(2.0)));
+    assert!(state.request_again().is_none() && state.wanted == Some(path("broken.igs")));
+
+    // Its files say something else of the picture and of when to halt.
+    let settings = "<halt_samples_per_pixel>9</halt_samples_per_pixel></renderer_settings>";
+    write(
+        "a.igs",
+        &scene.replace("<scale>1</scale>", "<scale>5</scale>").replace("</renderer_settings>", settings),
+    );
+    state.wanted.clone_from(&state.path);
+    let mode = state.mode.as_mut().expect("a scene");
+    (mode.bidirectional, state.mode_is_chosen) = (true, true);
+    let again = state.request_again().expect("a scene");
+    assert!(again.arguments.settings.iter().any(|o| o.setting == "bidirectional" && o.value == "true"));
+    load_into(&mut state, &engine, again);
+    assert_eq!((scale(&state), state.work.map(|work| work.halt_spp)), (Some(5.0), Some((true, 9))));
+    assert!(state.mode.is_some_and(|mode| mode.bidirectional));
+    std::fs::remove_dir_all(&folder).expect("our own files");
 }

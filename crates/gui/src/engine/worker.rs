@@ -121,7 +121,11 @@ impl Worker {
             Command::StartSlave(part, arguments) => self.start_slave(&part, &arguments),
             Command::Pause => self.with_run(Run::pause),
             Command::Resume => self.with_run(Run::resume),
-            Command::Stop => self.stop(true),
+            Command::Stop => {
+                let was_rendering = self.run.is_some();
+                self.stop(true);
+                self.tell_done(was_rendering);
+            }
             Command::Adjust(work) => self.adjust(&work),
             Command::SetRegion(region, work) => self.set_region(region, work),
             Command::SetPicture(picture) => {
@@ -187,7 +191,9 @@ impl Worker {
             return;
         };
         let facts = LoadedFacts::of(&scene);
-        let mut work = Work::of(&facts.output, outcome.request.arguments.halt_error);
+        let of_files = Work::of(&facts.output, outcome.request.arguments.halt_error);
+        let kept = outcome.request.kept.filter(|kept| kept.of_files == of_files);
+        let mut work = kept.map_or(of_files, |kept| kept.work);
         if let Some(samples) = outcome.request.halts_at {
             work.halt_by(samples);
         }
@@ -200,7 +206,7 @@ impl Worker {
         let region_of_files = scene.film.region;
         self.region = None;
         self.open = Some(Open { scene, read, request, region_of_files });
-        self.outlet.send(Update::Scene(Box::new(facts)));
+        self.outlet.send(Update::Scene(Box::new(facts), Some(work)));
         self.outlet.send(Update::Phase(Phase::Ready));
         if starts {
             self.start(&work);
@@ -287,7 +293,7 @@ impl Worker {
         } else if let Some(run) = &mut self.run
             && let Some(reason) = run.go_on(PULSE, &mut self.outlet, &self.desk)
         {
-            self.end(reason, true);
+            self.end_of_itself(reason);
         }
     }
 
@@ -323,14 +329,26 @@ impl Worker {
         self.desk.set_film(Arc::new(film.film.clone()));
         self.film = Some(film);
         self.outlet.send(Update::Phase(Phase::Halted(reason)));
-        self.outlet.send(Update::Done);
+    }
+
+    /// Ends a render for a reason of its own, so that the next scene may begin.
+    fn end_of_itself(&mut self, reason: indigo_render::HaltReason) {
+        self.end(reason, true);
+        self.tell_done(true);
+    }
+
+    /// The scene is done, if it was rendered and is not any more.
+    fn tell_done(&self, was_rendering: bool) {
+        if was_rendering && self.run.is_none() {
+            self.outlet.send(Update::Done);
+        }
     }
 
     /// Goes on with the same film under other conditions.
     fn adjust(&mut self, work: &Work) {
         let Some(run) = &mut self.run else { return };
         if let Err(reason) = run.adjust(work, &mut self.outlet) {
-            self.end(reason, true);
+            self.end_of_itself(reason);
         }
     }
 

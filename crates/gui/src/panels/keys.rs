@@ -30,7 +30,7 @@ const COMMANDS: &[(Modifiers, Key, &str, Effect)] = &[
     (Modifiers::COMMAND, Key::Num4, words::TAB_QUEUE, |state| state.tab = Tab::Queue),
     (Modifiers::COMMAND, Key::Num5, words::TAB_NETWORK, |state| state.tab = Tab::Network),
     (Modifiers::COMMAND, Key::R, words::RELOAD, |state| {
-        if state.path.is_some() {
+        if state.wanted.is_some() {
             state.act(Action::Restart);
         }
     }),
@@ -71,7 +71,14 @@ pub fn keys(context: &Context, state: &mut State) {
         Grid::new("keys").num_columns(2).spacing([24.0, 6.0]).show(ui, |ui| {
             for (modifiers, key, what, _) in COMMANDS.iter().chain(PLAIN) {
                 let shortcut = KeyboardShortcut::new(*modifiers, *key);
-                ui.monospace(ui.ctx().format_shortcut(&shortcut));
+                // As it is written on the key.
+                let is_plain = modifiers.is_none();
+                let name = if is_plain {
+                    key.symbol_or_name().to_owned()
+                } else {
+                    ui.ctx().format_shortcut(&shortcut)
+                };
+                ui.monospace(name);
                 ui.label(*what);
                 ui.end_row();
             }

@@ -32,7 +32,7 @@ pub fn side(ui: &mut Ui, state: &mut State) {
         }
     });
     ui.separator();
-    ScrollArea::vertical().id_salt("side").auto_shrink(false).show(ui, |ui| match state.tab {
+    ScrollArea::vertical().id_salt(("side", state.tab)).auto_shrink(false).show(ui, |ui| match state.tab {
         Tab::Picture => tone::tone(ui, state),
         Tab::Render => work::work(ui, state),
         Tab::Scene => {

@@ -37,7 +37,7 @@ fn open(ui: &mut Ui, state: &mut State) {
             state.act(Action::Ask(Ask::Open));
             ui.close();
         }
-        if ui.add_enabled(state.path.is_some(), Button::new(words::RELOAD)).clicked() {
+        if ui.add_enabled(state.wanted.is_some(), Button::new(words::RELOAD)).clicked() {
             state.act(Action::Restart);
             ui.close();
         }

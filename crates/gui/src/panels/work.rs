@@ -33,6 +33,7 @@ pub fn work(ui: &mut Ui, state: &mut State) {
     }
     head(ui, words::LIGHT_TRANSPORT);
     transport(ui, &mut mode);
+    state.mode_is_chosen |= state.mode != Some(mode);
     state.mode = Some(mode);
     let is_other = state.facts.as_ref().is_some_and(|facts| Mode::of(&facts.transport) != mode);
     row(ui, "", |ui| {

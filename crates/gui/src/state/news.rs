@@ -13,7 +13,7 @@ impl State {
     pub fn take(&mut self, update: Update) {
         match update {
             Update::Phase(phase) => self.take_phase(phase),
-            Update::Scene(facts) => self.take_scene(*facts),
+            Update::Scene(facts, work) => self.take_scene(*facts, work),
             Update::Findings(findings, sources) => {
                 if findings.iter().any(|finding| finding.weight != Weight::Info) {
                     self.foot = Foot::Findings;
@@ -23,6 +23,7 @@ impl State {
             Update::Film(settings, path) => {
                 self.facts = None;
                 self.path = Some(path.display().to_string());
+                self.wanted.clone_from(&self.path);
                 self.controls = Some(Controls::of(&settings));
                 self.base = Some(*settings);
                 (self.work, self.mode, self.progress) = (None, None, None);
@@ -54,24 +55,28 @@ impl State {
         self.phase = phase;
     }
 
-    fn take_scene(&mut self, facts: LoadedFacts) {
+    /// A scene is there, to be rendered in a way that is told where it was loaded.
+    fn take_scene(&mut self, facts: LoadedFacts, work: Option<Work>) {
         let is_same = self.facts.as_ref().is_some_and(|old| old.path == facts.path && old.size == facts.size);
         if !is_same {
             self.view.fit();
             self.picture = None;
-            self.work = None;
+            self.mode_is_chosen = false;
         }
         self.progress = None;
         self.file = None;
-        // What was tried out on the same scene stays.
-        if !is_same || self.controls.is_none() {
-            self.controls = Some(Controls::of(&facts.picture));
+        // What was tried out on the same scene stays, unless its files say something else now.
+        let of_files = Controls::of(&facts.picture);
+        let is_as_before = self.base.as_ref().is_some_and(|base| Controls::of(base) == of_files);
+        if !(is_same && is_as_before) || self.controls.is_none() {
+            self.controls = Some(of_files);
         }
         self.base = Some(facts.picture.clone());
-        self.work.get_or_insert(Work::of(&facts.output, self.arguments.halt_error));
+        self.work = work.or(self.work);
         self.mode = Some(Mode::of(&facts.transport));
         self.recent.add(Path::new(&facts.path));
         self.path = Some(facts.path.clone());
+        self.wanted.clone_from(&self.path);
         self.facts = Some(facts);
         self.controls_changed();
     }

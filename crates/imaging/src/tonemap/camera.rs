@@ -24,6 +24,10 @@ const DECODE_CELLS: usize = 4096;
 pub struct Curve {
     irradiance: Vec<f32>,
     brightness: Vec<f32>,
+    /// How the brightness changes from each point to the next one; 0 between two at one place.
+    slopes: Vec<f32>,
+    /// Cells per unit of irradiance.
+    cells: f32,
     /// For each of as many even cells over [first, last] irradiance, the last point at or before its start.
     guide: Vec<u32>,
 }
@@ -100,7 +104,19 @@ impl Curve {
         let start = |cell: usize| first + (last - first) * cell as f32 / n as f32;
         let before = |cell: usize| irradiance.partition_point(|v| *v <= start(cell)).saturating_sub(1);
         let guide = (0..n).map(|cell| before(cell) as u32).collect();
-        Some(Self { irradiance: irradiance.to_vec(), brightness: brightness.to_vec(), guide })
+        let slope = |(x, y): (&[f32], &[f32])| {
+            let slope = (y[1] - y[0]) / (x[1] - x[0]);
+            // A step, at one place or as good as one.
+            if slope.is_finite() { slope } else { 0.0 }
+        };
+        let slopes = irradiance.windows(2).zip(brightness.windows(2)).map(slope).collect();
+        Some(Self {
+            irradiance: irradiance.to_vec(),
+            brightness: brightness.to_vec(),
+            slopes,
+            cells: n as f32 / (last - first),
+            guide,
+        })
     }
 
     /// The brightness of an irradiance: straight lines between the points, constant beyond the ends.
@@ -115,16 +131,14 @@ impl Curve {
         if irradiance <= first || irradiance.is_nan() {
             return self.brightness[0];
         }
-        let cell = ((irradiance - first) / (last - first) * n as f32) as usize;
+        let cell = ((irradiance - first) * self.cells) as usize;
         // Rounding may have led into the next cell: the points before it are before this value all the same, but
         // for the very next one.
         let mut i = (self.guide[cell.min(n - 1)] as usize).saturating_sub(1);
         while self.irradiance[i + 1] <= irradiance {
             i += 1;
         }
-        let (x0, x1) = (self.irradiance[i], self.irradiance[i + 1]);
-        let (y0, y1) = (self.brightness[i], self.brightness[i + 1]);
-        y0 + (y1 - y0) * (irradiance - x0) / (x1 - x0)
+        self.brightness[i] + self.slopes[i] * (irradiance - self.irradiance[i])
     }
 }
 

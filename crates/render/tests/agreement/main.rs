@@ -128,6 +128,7 @@ grid! {
         orthographic_camera,
         spherical_camera,
         motion,
+        moving_media,
         lamps_out_of_focus,
         lamp_deflected_straight,
         coloured_walls_and_lamps,

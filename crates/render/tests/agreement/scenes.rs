@@ -4,11 +4,13 @@ mod lens;
 mod lights;
 mod materials;
 mod media;
+mod motion;
 
 pub use lens::*;
 pub use lights::*;
 pub use materials::*;
 pub use media::*;
+pub use motion::*;
 
 use super::SIDE;
 use super::common::scene;

@@ -171,7 +171,8 @@ pub static MEDIUM: Block = Block::new(
             Kind::Int,
             Presence::Default("10"),
             "Where several media overlap, the one with the highest precedence is there and displaces the \
-             others; of those with the same, the one that is defined last. Air, which fills the scene by itself, has 1.",
+             others; of those with the same, the one that is defined last. Air, which fills the scene by itself, has 1. \
+             Surfaces of two media must not lie in one plane where they overlap: let one reach into the other.",
         )
         .range(Range::Above(1.0)),
     ],

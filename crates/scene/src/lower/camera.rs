@@ -12,7 +12,7 @@ use indigo_decl::codes::OUT_OF_RANGE;
 use indigo_diag::{Diagnostic, Sink};
 use indigo_geom::{Accel, Ray, SurfacePoint};
 use indigo_imaging::{CameraFacts, Diffraction as DiffractionFilter, PictureSettings};
-use indigo_math::{Float, Motion, Vec3, Vec3d};
+use indigo_math::{Float, Motion, Pose, Vec3, Vec3d};
 use std::sync::Arc;
 
 /// Relative difference between the sensor's aspect ratio and the picture's that is worth a warning.
@@ -105,10 +105,10 @@ fn warn_without_lens(node: &Node, kind: CameraKind, sink: &mut Sink) {
 /// The camera's place in the world; the origin where that is wrong.
 pub(super) fn position(node: &Node, sink: &mut Sink) -> Vec3d {
     let motion = keyframes::motion(node);
-    let is_near = |pos: Vec3d| pos.to_array().iter().all(|x| x.abs() <= FARTHEST);
-    let pos = motion.at(0.0).pos;
-    if is_near(pos) && motion.times(1.0).into_iter().all(|time| is_near(motion.at(time).pos)) {
-        return pos;
+    keyframes::warn_of_long_turns(node, sink);
+    let is_near = |pose: &Pose| pose.pos.to_array().iter().all(|x| x.abs() <= FARTHEST);
+    if motion.poses(1.0).iter().all(is_near) {
+        return motion.at(0.0).pos;
     }
     sink.push(
         Diagnostic::error(OUT_OF_RANGE, node.span_of("pos"), "the camera is too far away from the origin")

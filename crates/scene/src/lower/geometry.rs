@@ -159,7 +159,11 @@ impl<'a> Geometry<'a> {
                 Object::Mesh { mesh, transform: transform.then_translate(-self.origin) }
             }
             Object::Sphere { center, radius } => Object::Sphere { center: center - self.origin, radius },
-            Object::Plane { normal, dist } => Object::Plane { normal, dist: dist - normal.dot(self.origin) },
+            Object::Plane { normal, dist, uv_origin } => Object::Plane {
+                normal,
+                dist: dist - normal.dot(self.origin),
+                uv_origin: uv_origin - self.origin,
+            },
         }
     }
 
@@ -208,7 +212,7 @@ impl<'a> Geometry<'a> {
                     .expected(format!("its length is {}", normal.length())),
                 );
             }
-            let object = Object::Plane { normal: unit, dist: plane.real("dist") };
+            let object = Object::Plane { normal: unit, dist: plane.real("dist"), uv_origin: Vec3d::ZERO };
             self.add_shape(plane, object, materials, context);
         } else {
             plane.disregard();
@@ -328,8 +332,8 @@ impl<'a> Geometry<'a> {
             (named, slots)
         };
         let object = Object::Mesh { mesh: id, transform };
-        let at = |movement: &Movement, time| Object::Mesh { mesh: id, transform: movement.at(time) };
-        let moved = movement.iter().flat_map(|m| m.times().map(move |time| at(m, time)));
+        let at = |transform| Object::Mesh { mesh: id, transform };
+        let moved = movement.iter().flat_map(|movement| movement.places().map(at));
         // Wherever it comes, it is told once.
         if let Some(far) = std::iter::once(object).chain(moved).find(|place| self.is_far(place, mesh.reach)) {
             self.refuse_far(&far, mesh.reach, node.span, context.sink);

@@ -4,6 +4,7 @@ use crate::codes;
 use indigo_decl::Node;
 use indigo_diag::{Diagnostic, Sink};
 use indigo_math::{Motion, Pose, Vec3d};
+use std::f64::consts::PI;
 
 /// Where a camera or model stands, by its keyframes or its `pos`.
 pub(super) fn motion(node: &Node) -> Motion {
@@ -25,6 +26,31 @@ pub(super) fn warn_of_standing(node: &Node, why: &str, sink: &mut Sink) {
         node.span_of("keyframe"),
         format!("motion is not rendered of {why}: the {name} stands where it is when the shutter opens"),
     ));
+}
+
+/// Tells of neighbouring keys whose angles about one axis are more than half a turn apart: the shorter way is taken.
+pub(super) fn warn_of_long_turns(node: &Node, sink: &mut Sink) {
+    let turn = |key: &Node| -> Option<Vec3d> {
+        let turn = key.node("rotation_quaternion")?;
+        Some(Vec3d::from(turn.vec3("axis")).try_normalized()? * turn.real("angle"))
+    };
+    let mut keys: Vec<(f64, Vec3d)> =
+        node.nodes("keyframe").map(|key| (key.real("time"), turn(key).unwrap_or(Vec3d::ZERO))).collect();
+    keys.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let far = keys.windows(2).map(|pair| (pair[0], pair[1])).find_map(|((t0, a), (t1, b))| {
+        let is_about_one_axis = a.cross(b).length() <= 1e-6 * a.length() * b.length();
+        let angle = (b - a).length();
+        // What half a turn is in few digits is not told of.
+        (t0 < t1 && is_about_one_axis && angle > PI + 1e-3).then_some(angle)
+    });
+    if let Some(angle) = far {
+        let message = format!(
+            "between two keyframes the angle changes by {:.0} degrees, and the shorter way is taken",
+            angle.to_degrees()
+        );
+        let warning = Diagnostic::warning(codes::LONG_TURN, node.span_of("keyframe"), message);
+        sink.push_or_count(warning.hint("put a keyframe between them, at most half a turn from each"));
+    }
 }
 
 fn of_keyframe(key: &Node) -> Pose {

@@ -70,6 +70,51 @@ fn a_keyframe_takes_the_place_of_a_position_and_turns_what_has_been_turned() {
     assert_eq!(dump(&twice), dump(&scene_with(&shining(old), &[])));
 }
 
+/// Half a turn and more between neighbours goes the other way, and a whole one nowhere.
+#[test]
+fn turns_that_go_the_shorter_way_are_told() {
+    let key = |time: f64, axis: &str, angle: f64| {
+        format!(
+            "<keyframe><time>{time}</time><pos>1 2 3</pos><rotation_quaternion><axis>{axis}</axis><angle>{angle}</angle></rotation_quaternion></keyframe>"
+        )
+    };
+    let model = |keys: &str| MODEL.replace("<pos>1 2 3</pos>", keys);
+    let warning = "W0330 between two keyframes the angle changes by 360 degrees";
+    scene_with(&of(&model(&(key(1.0, "0 0 2", 6.2832) + &key(0.0, "0 0 1", 0.0)))), &[warning]);
+    scene_with(&of(&model(&(key(0.0, "0 0 1", -3.0) + &key(1.0, "0 0 -1", -3.2832)))), &[warning]);
+    let camera =
+        of(MODEL).replace("<pos>0 -2 1</pos>", &(key(0.0, "0 0 1", 0.0) + &key(1.0, "0 0 1", 6.2832)));
+    scene_with(&camera, &[warning]);
+    for fine in [
+        key(0.0, "0 0 1", 0.0) + &key(1.0, "0 0 1", 3.14159),
+        key(0.0, "0 0 1", 0.0) + &key(0.5, "0 0 1", 3.0) + &key(1.0, "0 0 1", 6.0),
+        // About other axes nobody knows which way is meant.
+        key(0.0, "0 0 1", 3.0) + &key(1.0, "0 1 0", 3.0),
+        // It jumps there.
+        key(0.5, "0 0 1", 0.0) + &key(0.5, "0 0 1", 6.0),
+    ] {
+        scene_with(&of(&model(&fine)), &[]);
+    }
+}
+
+/// Texture coordinates of a plane are those of the world, wherever the camera stands.
+#[test]
+fn a_plane_holds_its_texture_coordinates() {
+    let plane = "<plane><normal>0 0.6 0.8</normal><dist>-1</dist><material_name>m</material_name></plane>";
+    let at = |camera: [f64; 3]| {
+        let [x, y, z] = camera;
+        let scene =
+            scene_with(&of(plane).replace("<pos>0 -2 1</pos>", &format!("<pos>{x} {y} {z}</pos>")), &[]);
+        let (from, camera) = (indigo_math::Vec3d::new(3.0, 4.0, 5.0), indigo_math::Vec3d::from(camera));
+        let ray = indigo_geom::Ray::new((from - camera).cast(), indigo_math::Vec3::new(0.0, 0.0, -1.0));
+        let hit = scene.accel.intersect(&ray).expect("the plane");
+        scene.accel.uv(&scene.accel.surface(&ray, &hit), 0)
+    };
+    let (here, there) = (at([0.0, -2.0, 1.0]), at([1.5, -7.25, 3.0]));
+    assert!((here.x - there.x).abs() < 1e-5 && (here.y - there.y).abs() < 1e-5, "{here:?} {there:?}");
+    assert!(here.x.abs() + here.y.abs() > 1.0, "{here:?}");
+}
+
 #[test]
 fn a_camera_may_move() {
     let keys = "<keyframe><time>0</time><pos>0 -2 1</pos></keyframe><keyframe><time>1</time><pos>0 -2 3</pos><rotation_quaternion><axis>0 0 1</axis><angle>0.2</angle></rotation_quaternion></keyframe>";

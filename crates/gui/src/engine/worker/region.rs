@@ -16,14 +16,20 @@ pub struct RegionWish {
 }
 
 impl Worker {
-    /// Ends what is rendered, and renders another part of the picture as soon as that can be.
+    /// Ends what is rendered, with all its files, and renders another part of the picture as soon as that can be.
     pub(super) fn set_region(&mut self, region: Option<[[u32; 2]; 2]>, work: Work) {
         if self.run.as_ref().is_some_and(Run::has_slaves) {
             return self.say(Weight::Error, words::REGION_OF_MANY);
         }
-        let was_at_work = self.run.take().is_some();
+        let was_at_work = self.run.as_ref().is_some_and(|run| !run.rests());
+        let waiting = self.region.take().and_then(|wish| wish.work);
+        self.stop(true);
+        if self.run.is_some() {
+            // Its files could not be written, which was told: nothing is lost for a slip of the mouse.
+            return;
+        }
         self.film = None;
-        let work = was_at_work.then_some(work).or(self.region.take().and_then(|wish| wish.work));
+        let work = was_at_work.then_some(work).or(waiting);
         self.region = Some(RegionWish { region, work });
         self.try_region();
     }
@@ -44,7 +50,7 @@ impl Worker {
         if let Some(picture) = &mut self.picture {
             picture.region = facts.picture.region;
         }
-        self.outlet.send(Update::Scene(Box::new(facts)));
+        self.outlet.send(Update::Scene(Box::new(facts), None));
         self.outlet.send(Update::Phase(Phase::Ready));
         if let Some(work) = work {
             self.start(&work);

@@ -106,6 +106,11 @@ impl Run {
     }
 
     /// Whether there is nothing to do until an order comes.
+    pub fn rests(&self) -> bool {
+        self.rests
+    }
+
+    /// The same, and whether the picture of that was shown.
     pub fn is_at_rest(&self) -> bool {
         self.rests && self.rest_shown
     }

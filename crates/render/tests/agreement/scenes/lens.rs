@@ -38,28 +38,6 @@ pub fn spherical_camera() -> Scene {
     build(&[common(lens), room(["white"; 4]), block("grey"), lamp(0.3, 1e5), sky])
 }
 
-/// A block that turns and moves, seen by a camera that does, too.
-pub fn motion() -> Scene {
-    let key = |time: f64, pos: [f64; 3], angle: f64| {
-        let [x, y, z] = pos;
-        format!(
-            "<keyframe><time>{time}</time><pos>{x} {y} {z}</pos><rotation_quaternion><axis>0 0.6 0.8</axis><angle>{angle}</angle></rotation_quaternion></keyframe>"
-        )
-    };
-    let moving = |element: &str, pos: &str, keys: &str| {
-        let moved = element.replace(pos, keys);
-        assert_ne!(moved, element);
-        moved
-    };
-    let pan = key(0.0, [0.0, -3.6, 0.0], 0.0) + &key(1.0, [0.3, -3.4, 0.1], 0.1);
-    let lens = moving(&camera([0.0, -3.6, 0.0], [0.0, 1.0, 0.0], 0.42, ""), "<pos>0 -3.6 0</pos>", &pan);
-    let tumble =
-        key(-1.0, [0.0; 3], 0.0) + &key(0.5, [-0.4, -0.2, 0.3], 0.8) + &key(1.0, [-0.2, 0.0, 0.8], -0.5);
-    let [mesh, placed] = <[String; 2]>::try_from(block("grey")).expect("a mesh and its model");
-    let tumbling = vec![mesh, moving(&placed, "<pos>0 0 0</pos>", &tumble)];
-    build(&[common(lens), room(["white"; 4]), tumbling, lamp(0.3, 1e5)])
-}
-
 /// Three blades, whose picture of what is out of focus no mode may turn over or stretch.
 pub fn blades_out_of_focus() -> Scene {
     let blades = "<aperture_shape><generated><num_blades>3</num_blades><start_angle>0.2</start_angle><blade_offset>0.25</blade_offset><blade_curvature_radius>0.7</blade_curvature_radius></generated></aperture_shape>";

@@ -14,12 +14,12 @@ fn clear(name: &str, precedence: u32, ior: f64) -> String {
 }
 
 /// A medium that scatters, with the index of air.
-fn fog(name: &str, absorption: &str, coefficient: &str, phase: &str) -> String {
+pub(super) fn fog(name: &str, absorption: &str, coefficient: &str, phase: &str) -> String {
     medium(name, 10, &basic(1.0, absorption, &scattering(coefficient, phase)))
 }
 
 /// A box from -`half` to `half` along each axis, moved.
-fn cuboid(name: &str, material: &str, half: [f64; 3], at: [f64; 3]) -> Vec<String> {
+pub(super) fn cuboid(name: &str, material: &str, half: [f64; 3], at: [f64; 3]) -> Vec<String> {
     let [x, y, z] = half;
     let mesh = Mesh::cube(1.0).placed([x, 0.0, 0.0, 0.0, y, 0.0, 0.0, 0.0, z], 1.0, at);
     vec![mesh.text(name, material), model(name)]
