@@ -34,7 +34,8 @@ fn check(mesh: &MeshData) {
     assert!(mesh.normals.is_empty() || mesh.normals.len() == n);
     assert!(mesh.uv_sets.iter().all(|set| set.len() == n));
     assert!(mesh.uv_names.iter().all(|&(_, set)| (set as usize) < mesh.uv_sets.len()));
-    assert!(mesh.triangles.iter().flatten().all(|&i| (i as usize) < n));
+    assert!(mesh.triangles.iter().chain(&mesh.degenerate).flatten().all(|&i| (i as usize) < n));
+    assert_eq!(mesh.degenerate_materials.len(), mesh.degenerate.len());
     assert_eq!(mesh.triangle_materials.len(), mesh.triangles.len());
     assert!(mesh.triangle_materials.iter().all(|&m| (m as usize) < mesh.material_names.len()));
 }

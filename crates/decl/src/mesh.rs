@@ -2,7 +2,7 @@
 
 /// A mesh as it was read: nothing smoothed, baked or transformed yet.
 ///
-/// Every index in `triangles` is below `positions.len()`; readers check that.
+/// Every index in `triangles` and `degenerate` is below `positions.len()`; readers check that.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeshData {
     /// Vertex positions in metres (before the mesh's `scale`).
@@ -22,8 +22,10 @@ pub struct MeshData {
     /// For each of `material_names` its number in the list of the source, which may hold some that are not used and be in
     /// another order; empty where there is no such list.
     pub material_numbers: Vec<u32>,
-    /// How many triangles of (almost) no area were left out (area below 1e-20 m² as stored).
-    pub degenerate_dropped: usize,
+    /// Triangles of (almost) no area, which were left out (area below 1e-20 m² as stored).
+    pub degenerate: Vec<[u32; 3]>,
+    /// For each of them its index into `material_names`.
+    pub degenerate_materials: Vec<u32>,
     /// Anything the user should know of (a face that named an unlisted material, normals that had to be normalised...).
     pub notes: Vec<String>,
 }

@@ -110,7 +110,8 @@ impl MeshBuilder {
 fn push_triangle(mesh: &mut MeshData, triangle: [u32; 3], material: u32) {
     let normal = area_normal(mesh, triangle);
     if dot(normal, normal) < 4.0 * LEAST_AREA * LEAST_AREA {
-        mesh.degenerate_dropped += 1;
+        mesh.degenerate.push(triangle);
+        mesh.degenerate_materials.push(material);
     } else {
         mesh.triangles.push(triangle);
         mesh.triangle_materials.push(material);
@@ -162,7 +163,7 @@ mod tests {
         let mesh = builder.finish();
         assert_eq!(mesh.triangles, [[0, 1, 3]]);
         assert_eq!(mesh.triangle_materials.len(), 1);
-        assert_eq!(mesh.degenerate_dropped, 2);
+        assert_eq!((mesh.degenerate, mesh.degenerate_materials), (vec![[0, 1, 2], [0, 1, 1]], vec![0, 0]));
     }
 
     #[test]

@@ -107,6 +107,7 @@ pub fn load(path: &str, options: &LoadOptions) -> Loaded {
         sources: &mut sources,
         sink: &mut sink,
         asked: HashSet::new(),
+        missing: HashSet::new(),
     };
     let mut scene = lower::lower(&bound.root, &bound.settings, path, context)
         .filter(|_| !sink.has_errors() && !options.is_stopped());
@@ -131,6 +132,7 @@ pub fn load_development(path: &str, options: &LoadOptions) -> LoadedDevelopment 
             sources: &mut sources,
             sink: &mut sink,
             asked: HashSet::new(),
+            missing: HashSet::new(),
         };
         lower::development(&bound.root, &bound.settings, path, context)
     });

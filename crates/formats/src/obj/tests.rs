@@ -114,5 +114,5 @@ fn errors_carry_line_and_column() {
 #[test]
 fn faces_of_two_corners_and_slivers_are_left_out() {
     let mesh = mesh(&format!("{SQUARE}usemtl m\nf 1 2\nf 1 2 2\nf 1 2 3\n"));
-    assert_eq!((mesh.triangles.len(), mesh.degenerate_dropped, mesh.notes.len()), (1, 1, 1));
+    assert_eq!((mesh.triangles.len(), mesh.degenerate.len(), mesh.notes.len()), (1, 1, 1));
 }

@@ -197,7 +197,7 @@ fn real_files_hold_what_other_readers_count() {
         let bytes = std::fs::read(path).unwrap();
         assert_eq!(contents(&bytes), Contents { objects, vertices, faces, uv_lists, materials }, "{name}");
         let mesh = read(&bytes).unwrap();
-        assert_eq!(mesh.triangles.len() + mesh.degenerate_dropped, faces, "{name}: {:?}", mesh.notes);
+        assert_eq!(mesh.triangles.len() + mesh.degenerate.len(), faces, "{name}: {:?}", mesh.notes);
         assert_eq!(mesh.uv_sets.len(), usize::from(uv_lists > 0), "{name}");
         assert_eq!(mesh.normals.len(), mesh.positions.len(), "{name}");
         for triangle in &mesh.triangles {

@@ -48,7 +48,8 @@ fn check_mesh(mesh: &MeshData) {
     for (name, set) in &mesh.uv_names {
         assert!((*set as usize) < mesh.uv_sets.len(), "uv set {name}");
     }
-    assert!(mesh.triangles.iter().flatten().all(|&i| (i as usize) < n));
+    assert!(mesh.triangles.iter().chain(&mesh.degenerate).flatten().all(|&i| (i as usize) < n));
+    assert_eq!(mesh.degenerate_materials.len(), mesh.degenerate.len());
     assert_eq!(mesh.triangle_materials.len(), mesh.triangles.len());
     assert!(mesh.triangle_materials.iter().all(|&m| (m as usize) < mesh.material_names.len()));
 }

@@ -119,7 +119,9 @@ impl MeshBuilder {
         if area < f64::from(SMALLEST_AREA) {
             // Where a vertex could not be read, nobody knows the area.
             let is_spoilt = !self.spoilt.is_empty() && indices.iter().any(|i| self.spoilt.contains(i));
-            self.data.degenerate_dropped += usize::from(!is_spoilt);
+            if !is_spoilt {
+                self.data.degenerate.push(indices);
+            }
         } else {
             self.data.triangles.push(indices);
         }
@@ -128,11 +130,15 @@ impl MeshBuilder {
     pub fn end_set(&mut self, set: Span, report: &mut Reporter) {
         let count = self.data.triangles.len();
         match self.set_material {
-            Some(id) => self.data.triangle_materials.resize(count, id),
+            Some(id) => {
+                self.data.triangle_materials.resize(count, id);
+                self.data.degenerate_materials.resize(self.data.degenerate.len(), id);
+            }
             None => {
                 let expected = "expected <material_name> inside, with a name";
                 report.error(codes::NO_MATERIAL, set, "<triangle_set> has no material", expected);
                 self.data.triangles.truncate(self.set_start);
+                self.data.degenerate.truncate(self.data.degenerate_materials.len());
             }
         }
     }

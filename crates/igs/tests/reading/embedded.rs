@@ -75,7 +75,7 @@ fn triangles_without_area_are_dropped_with_a_count() {
         "<triangle_set><tri>0 0 1</tri><tri>2 1 0</tri><material_name>b</material_name></triangle_set>";
     let (mesh, findings) = read(&(vertices([""; 3]) + SET + more));
     assert!(findings.is_empty());
-    assert_eq!(mesh.data.degenerate_dropped, 1);
+    assert_eq!(mesh.data.degenerate.len(), 1);
     assert_eq!(mesh.data.triangles, [[0, 1, 2], [2, 1, 0]]);
     assert_eq!(mesh.data.triangle_materials, [0, 1]);
 }
@@ -161,7 +161,7 @@ fn entities_stand_for_their_characters_in_numbers_too() {
 fn triangles_of_a_bad_vertex_are_not_counted_as_degenerate() {
     let vertices = "<vertex pos=\"0 0 0\"/><vertex pos=\"nan 0 0\"/><vertex pos=\"0 1 0\"/>";
     let (mesh, findings) = read(&format!("{vertices}{SET}"));
-    assert_eq!((findings.len(), mesh.data.degenerate_dropped), (1, 0), "{findings:?}");
+    assert_eq!((findings.len(), mesh.data.degenerate.len()), (1, 0), "{findings:?}");
     let vertices = "<vertex pos=\"0 0 0\"/><vertex pos=\"0 0 0\"/><vertex pos=\"0 1 0\"/>";
-    assert_eq!(read(&format!("{vertices}{SET}")).0.data.degenerate_dropped, 1);
+    assert_eq!(read(&format!("{vertices}{SET}")).0.data.degenerate.len(), 1);
 }

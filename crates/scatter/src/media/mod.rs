@@ -155,7 +155,10 @@ const UID: Field = Field::new(
 pub static MEDIUM: Block = Block::new(
     "medium",
     "Defines a medium: a name, a precedence and one kind. Where it stands in the scene matters only beside media of the same precedence. \
-     The children of `basic` may also stand directly in `medium`. Its surface has to be closed: a mesh that is not is told of. \
+     The children of `basic` may also stand directly in `medium`. Its surface has to be closed: a mesh with an edge \
+     that an odd number of its triangles have is told of, where vertices in just one place are one, and triangles without an area \
+     count. So are T-junctions, where triangles meet others between the ends of an edge, and meshes that are closed only together. \
+     Nothing is told of triangles that face the wrong way, nor of meshes of more than 4,194,304 triangles. \
      Measured media come with the program, to be included: those that `media/README.md` lists.",
     &[
         Field::new(

@@ -21,8 +21,6 @@ pub(super) struct Mesh {
     pub(super) slot_numbers: Vec<u32>,
     /// Names of its uv sets.
     pub(super) uv_names: Vec<(String, u32)>,
-    /// Whether triangles were left out of it, without which nobody can tell whether it is closed.
-    pub(super) has_gaps: bool,
     /// The largest coordinate of its vertices, of either sign.
     pub(super) reach: f64,
     /// Whether it stands in for one whose file is missing; then it has one slot, without a name, and one uv set that
@@ -44,6 +42,8 @@ pub(super) struct MeshTable<'a> {
     triangles: Vec<TriangleMesh>,
     /// Parts of meshes by what they are of: `None` where that is no triangle.
     parts: HashMap<(u32, Part), Option<u32>>,
+    /// Triangles of meshes that were left out, and their slots: without them a mesh would seem to have gaps.
+    degenerate: HashMap<u32, Vec<([u32; 3], u32)>>,
     /// Open edges of some slots of meshes that were asked for.
     open_edges: HashMap<(u32, Vec<u32>), usize>,
 }
@@ -73,6 +73,7 @@ impl<'a> MeshTable<'a> {
             read: HashMap::new(),
             triangles: vec![],
             parts: HashMap::new(),
+            degenerate: HashMap::new(),
             open_edges: HashMap::new(),
         }
     }
@@ -115,7 +116,8 @@ impl<'a> MeshTable<'a> {
         if let Some(open) = self.open_edges.get(&key) {
             return *open;
         }
-        let open = open_edges(triangles, &key.1);
+        let degenerate = self.degenerate.get(&id).map_or(&[][..], Vec::as_slice);
+        let open = open_edges(triangles, degenerate, &key.1);
         self.open_edges.insert(key, open);
         open
     }
@@ -164,11 +166,12 @@ impl<'a> MeshTable<'a> {
             .map(|(i, name)| (name.clone(), material_spans.get(i).copied().unwrap_or(place)));
         let (slots, uv_names) = (slots.collect(), names_of_all_sets(&data));
         let slot_numbers = data.material_numbers.clone();
-        let has_gaps = data.degenerate_dropped > 0;
+        let degenerate = degenerate_by_slot(&data);
         let triangles = to_triangles(data, scale, smooth, place, context.sink)?;
         let reach = triangles.positions().iter().flatten().fold(0.0_f32, |most, x| most.max(x.abs()));
         let id = self.add(triangles);
-        Some(Mesh { id, slots, slot_numbers, uv_names, reach: reach.into(), has_gaps, is_stand_in: false })
+        self.degenerate.insert(id, degenerate);
+        Some(Mesh { id, slots, slot_numbers, uv_names, reach: reach.into(), is_stand_in: false })
     }
 
     /// A cube round the origin, a metre wide whatever the scale of the mesh: files have all units.
@@ -190,7 +193,6 @@ impl<'a> MeshTable<'a> {
             slot_numbers: vec![],
             uv_names: vec![],
             reach: 0.5,
-            has_gaps: false,
             is_stand_in: true,
         })
     }
@@ -245,6 +247,13 @@ fn names_of_all_sets(data: &MeshData) -> Vec<(String, u32)> {
     names
 }
 
+/// Triangles that were left out, with the slots that they would have.
+fn degenerate_by_slot(data: &MeshData) -> Vec<([u32; 3], u32)> {
+    let has_slots = data.material_names.len() > 1;
+    let slots = data.degenerate_materials.iter().map(|material| if has_slots { *material } else { 0 });
+    data.degenerate.iter().copied().zip(slots).collect()
+}
+
 fn read_file(file: &Resolved, span: Span, sink: &mut Sink) -> Option<MeshData> {
     match read_mesh(&file.path, &file.bytes) {
         Ok(data) => Some(data),
@@ -266,8 +275,8 @@ fn report_notes(data: &MeshData, span: Span, sink: &mut Sink) {
     for note in &data.notes {
         sink.push(Diagnostic::warning(codes::FILE_NOTE, span, note.clone()));
     }
-    if data.degenerate_dropped > 0 {
-        let n = data.degenerate_dropped;
+    let n = data.degenerate.len();
+    if n > 0 {
         let what = if n == 1 {
             "1 triangle has no area and is left out".to_owned()
         } else {

@@ -55,6 +55,8 @@ pub(crate) struct Context<'a> {
     pub sink: &'a mut Sink,
     /// Paths of files that were asked for, and the files that name them.
     pub asked: HashSet<(String, SourceId)>,
+    /// Those of them that are missing, and of which that was told as an error.
+    pub missing: HashSet<(String, SourceId)>,
 }
 
 impl Context<'_> {
@@ -109,8 +111,14 @@ impl Context<'_> {
         Ok(image)
     }
 
-    /// Reports files that cannot be had and that nothing has asked for: what names them has no effect.
+    /// Reports files that cannot be had and that nothing has asked for: what names them has no effect, unless it is a fault that
+    /// keeps from using it.
     fn report_missing_unused(&mut self, root: &Node) {
+        let why = if self.sink.has_errors() {
+            "which nothing uses that could be read"
+        } else {
+            "which has no effect here"
+        };
         let mut paths = vec![];
         root.visit_paths(&mut |path, span| paths.push((path.to_owned(), span)));
         for (path, span) in paths {
@@ -119,13 +127,14 @@ impl Context<'_> {
                 continue;
             }
             if let Err(error) = self.options.resolver.read(&path, from) {
-                let message = format!("cannot read {path}, which has no effect here: {error}");
+                let message = format!("cannot read {path}, {why}: {error}");
                 let missing = Diagnostic::warning(codes::IDLE_MISSING, span, message);
                 self.sink.push(missing.expected(error.expected()));
             }
         }
     }
 
+    /// Reports what cannot be had: one fault, however many things of a file use it.
     fn or_report(
         &mut self,
         found: Result<Resolved, ResolveError>,
@@ -134,6 +143,7 @@ impl Context<'_> {
     ) -> Option<Resolved> {
         match found {
             Ok(found) => Some(found),
+            Err(_) if !self.missing.insert((path.to_owned(), span.source)) => None,
             Err(error) => {
                 let from = self.sources.name(span.source);
                 let hint = hint_of_shipped(path, from, &error, self.options.resolver);

@@ -20,6 +20,19 @@ pub(super) struct TextureTable {
     images: HashMap<String, Arc<Image>>,
     /// Textures by file, curve (exponent, a, b, c), uv set and mapping.
     by_content: HashMap<(String, [u64; 4], u32, [u64; 6]), TextureId>,
+    /// Shares of texels that were counted: it goes through all of them, and a texture may be used any number of times.
+    shares: HashMap<(TextureId, Unfit), f64>,
+}
+
+/// What texels may be that some use of them cannot take.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) enum Unfit {
+    /// Of a scalar that is not above 0.
+    NotAbove0,
+    /// With a component that is no fraction.
+    NoFractions,
+    /// Of a scalar that is no fraction.
+    NoShare,
 }
 
 impl TextureTable {
@@ -44,6 +57,16 @@ impl TextureTable {
     /// A texture by its number.
     pub(super) fn texture(&self, id: TextureId) -> &Texture {
         &self.textures[id as usize]
+    }
+
+    /// Which share of the texels of a texture some use of it cannot take.
+    pub(super) fn share_of(&mut self, id: TextureId, unfit: Unfit) -> f64 {
+        let texture = &self.textures[id as usize];
+        *self.shares.entry((id, unfit)).or_insert_with(|| match unfit {
+            Unfit::NotAbove0 => texture.share_not_above(0.0),
+            Unfit::NoFractions => texture.share_beyond(0.0, 1.0),
+            Unfit::NoShare => texture.share_of_scalars_beyond(0.0, 1.0),
+        })
     }
 
     /// All textures in the order of their numbers.

@@ -46,6 +46,60 @@ fn a_missing_file_is_told_with_what_was_expected() {
     assert_eq!(missing.hint.as_deref(), Some("did you mean nkdata/au.nk?"));
 }
 
+/// It is one fault, however many materials and meshes use the file; of another path it is another.
+#[test]
+fn a_missing_file_is_told_once() {
+    let phong = |name: &str, file: &str| {
+        let kind = format!("<phong><nk_data>{file}</nk_data><exponent>100</exponent></phong>");
+        format!(
+            "<material><name>{name}</name>{kind}</material>{}",
+            SPHERE.replace(">m<", &format!(">{name}<"))
+        )
+    };
+    let textured = |name: &str, file: &str| {
+        let kind = format!("<diffuse><albedo_texture><path>{file}</path></albedo_texture></diffuse>");
+        format!(
+            "<material><name>{name}</name>{kind}</material>{}",
+            SPHERE.replace(">m<", &format!(">{name}<"))
+        )
+    };
+    for (of, file) in [(&phong as &dyn Fn(&str, &str) -> String, "none.nk"), (&textured, "none.png")] {
+        let messages = |other: &str| {
+            let scene = format!("{HEAD}{}{}{CAMERA}</scene>", of("a", file), of("b", other));
+            let told: Vec<String> = loaded(&scene)
+                .sink
+                .diagnostics()
+                .iter()
+                .map(|d| format!("{} {}", d.code, d.message))
+                .collect();
+            told
+        };
+        let told = messages(file);
+        assert!(told.len() == 1 && told[0].starts_with("E0302"), "{told:?}");
+        let told = messages(&format!("other_{file}"));
+        assert!(told.len() == 2 && told.iter().all(|told| told.starts_with("E0302")), "{told:?}");
+    }
+}
+
+/// What a mesh would use that is missing itself is not said to have no effect.
+#[test]
+fn what_a_fault_keeps_from_use_is_not_called_idle() {
+    let mesh = "<mesh><name>body</name><external><path>none.obj</path></external></mesh>";
+    let model = "<model><pos>0 0 0</pos><scale>1</scale><mesh_name>body</mesh_name></model>";
+    let texture = "<material><name>m</name><diffuse><albedo_texture><path>none.png</path></albedo_texture></diffuse></material>";
+    let memory = Memory(format!("{HEAD}{texture}{mesh}{model}{CAMERA}</scene>"));
+    for check_only in [false, true] {
+        let loaded = load("scene.igs", &LoadOptions { check_only, ..options(&memory) });
+        let told = loaded.sink.diagnostics().iter().map(|d| (d.code, d.message.as_str())).collect::<Vec<_>>();
+        assert!(told[0].0 == "E0302" && told[0].1.contains("none.obj"), "{told:?}");
+        assert_eq!(told.len(), if check_only { 2 } else { 1 }, "{told:?}");
+        for (code, message) in &told[1..] {
+            let is_right = message.starts_with("cannot read none.png, which nothing uses that could be read");
+            assert!(*code == "W0327" && is_right, "{message}");
+        }
+    }
+}
+
 /// Nothing of it is rendered, so only a check tells of it.
 #[test]
 fn files_without_an_effect_are_looked_for_where_a_scene_is_checked() {
@@ -62,7 +116,10 @@ fn files_without_an_effect_are_looked_for_where_a_scene_is_checked() {
         assert!(!loaded.sink.has_errors(), "{:?}", loaded.sink.diagnostics());
         assert_eq!(missing.len(), if check_only { 2 } else { 0 }, "{missing:?}");
         assert!(
-            missing.iter().zip(["nowhere", "gone"]).all(|(said, name)| said.contains(name)),
+            missing
+                .iter()
+                .zip(["nowhere", "gone"])
+                .all(|(said, name)| said.contains(name) && said.contains("has no effect here")),
             "{missing:?}"
         );
     }

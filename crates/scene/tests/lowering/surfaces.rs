@@ -78,6 +78,15 @@ fn the_surface_of_a_medium_is_closed() {
     assert!(found(&format!("{}{CAMERA}", mesh("m", &sides))).is_empty());
     expect_one(&mesh("m", &sides[..3]), "body</mesh_name>", "W0329");
     assert!(found(&format!("{}{CAMERA}", mesh("white", &sides[..3]))).is_empty());
+    // What has no area is left out and told, and hides no hole.
+    let codes = |sides: &[&str]| {
+        let loaded = loaded(&format!("{HEAD}{}{CAMERA}</scene>", mesh("m", sides)));
+        let codes: Vec<&str> = loaded.sink.diagnostics().iter().map(|d| d.code).collect();
+        codes
+    };
+    let edge = "0 1 1";
+    assert_eq!(codes(&[&sides[..], &[edge]].concat()), ["W0303"]);
+    assert_eq!(codes(&[&sides[..3], &[edge]].concat()), ["W0303", "W0329"]);
 }
 
 /// It is not the one that fills the scene.

@@ -2,6 +2,7 @@
 
 use super::{Context, MaterialTable, UvSets, complex_index, emission};
 use crate::codes;
+use crate::lower::textures::Unfit;
 use indigo_decl::Node;
 use indigo_diag::{Diagnostic, Sink, Span, Spanned};
 use indigo_scatter::{Material, MaterialId, MaterialResources, MediumId};
@@ -27,7 +28,7 @@ impl MaterialResources for Resources<'_, '_, '_, '_, '_> {
 
     fn exponents(&mut self, node: &Node) -> TextureId {
         let id = self.texture(node);
-        let below = self.table.textures.texture(id).share_not_above(0.0);
+        let below = self.table.textures.share_of(id, Unfit::NotAbove0);
         let found = format!("{}: exponents have to be above 0", node.text("path").value);
         if below == 1.0 {
             let what = "expected texels above 0 by the map's a, b and c, found none";
@@ -45,14 +46,14 @@ impl MaterialResources for Resources<'_, '_, '_, '_, '_> {
 
     fn fractions(&mut self, node: &Node) -> TextureId {
         let id = self.texture(node);
-        let beyond = self.table.textures.texture(id).share_beyond(0.0, 1.0);
+        let beyond = self.table.textures.share_of(id, Unfit::NoFractions);
         self.warn_of_clamping(beyond, node);
         id
     }
 
     fn shares(&mut self, node: &Node) -> TextureId {
         let id = self.texture(node);
-        let beyond = self.table.textures.texture(id).share_of_scalars_beyond(0.0, 1.0);
+        let beyond = self.table.textures.share_of(id, Unfit::NoShare);
         self.warn_of_clamping(beyond, node);
         id
     }
