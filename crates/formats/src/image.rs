@@ -9,6 +9,7 @@ mod exr_file;
 mod jpeg_frame;
 mod radiance;
 mod raster;
+mod tiff_directory;
 mod tiff_file;
 
 /// The widest and highest picture that is read.
@@ -74,7 +75,11 @@ pub fn decode_within(file_name: &str, bytes: &[u8], most_bytes: u64) -> Result<I
     if bytes.starts_with(radiance::MAGIC) {
         return guarded("HDR", || radiance::decode(bytes, most_bytes));
     }
-    let by_content = ::image::guess_format(bytes).ok();
+    let by_content = if tiff_file::BIG_MAGICS.iter().any(|magic| bytes.starts_with(magic)) {
+        Some(::image::ImageFormat::Tiff)
+    } else {
+        ::image::guess_format(bytes).ok()
+    };
     let by_name = || ::image::ImageFormat::from_path(file_name).ok();
     match by_content.or_else(by_name) {
         Some(::image::ImageFormat::Tiff) => guarded("TIFF", || tiff_file::decode(bytes, most_bytes)),

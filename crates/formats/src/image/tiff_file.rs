@@ -9,8 +9,12 @@ use ::tiff::TiffError;
 use ::tiff::decoder::{ChunkType, Decoder, DecodingResult, Limits};
 use ::tiff::tags::{IfdPointer, Tag};
 
+use super::tiff_directory;
 use super::{ALPHA, Image, Pixels, check_memory, check_sides, colours_of, decoder_error};
 use crate::error::{FormatError, Position};
+
+/// How a BigTIFF begins.
+pub(super) const BIG_MAGICS: [[u8; 4]; 2] = [*b"II+\0", *b"MM\0+"];
 
 /// Values of the tag `PhotometricInterpretation`.
 const WHITE_IS_ZERO: u16 = 0;
@@ -60,6 +64,9 @@ struct Form {
 }
 
 pub(super) fn decode(file: &[u8], most_bytes: u64) -> Result<Image, FormatError> {
+    if !tiff_directory::is_held(file, MOST_PAGES + 1) {
+        return Err(cut_off());
+    }
     let mut decoder = Decoder::new(Cursor::new(file)).map_err(complaint)?;
     let (width, height) = decoder.dimensions().map_err(complaint)?;
     check_sides(width.into(), height.into())?;

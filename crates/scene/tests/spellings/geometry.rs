@@ -79,11 +79,10 @@ fn turns_that_go_the_shorter_way_are_told() {
         )
     };
     let model = |keys: &str| MODEL.replace("<pos>1 2 3</pos>", keys);
-    let warning = "W0330 between two keyframes the angle changes by 360 degrees";
-    scene_with(&of(&model(&(key(1.0, "0 0 2", 6.28) + &key(0.0, "0 0 1", 0.0)))), &[warning]);
-    scene_with(&of(&model(&(key(0.0, "0 0 1", -3.0) + &key(1.0, "0 0 -1", -3.28)))), &[warning]);
-    let camera =
-        of(MODEL).replace("<pos>0 -2 1</pos>", &(key(0.0, "0 0 1", 0.0) + &key(1.0, "0 0 1", 6.28)));
+    let warning = "W0330 between two keyframes the angle changes by 355 degrees";
+    scene_with(&of(&model(&(key(1.0, "0 0 2", 6.2) + &key(0.0, "0 0 1", 0.0)))), &[warning]);
+    scene_with(&of(&model(&(key(0.0, "0 0 1", -3.0) + &key(1.0, "0 0 -1", -3.2)))), &[warning]);
+    let camera = of(MODEL).replace("<pos>0 -2 1</pos>", &(key(0.0, "0 0 1", 0.0) + &key(1.0, "0 0 1", 6.2)));
     scene_with(&camera, &[warning]);
     for fine in [
         key(0.0, "0 0 1", 0.0) + &key(1.0, "0 0 1", 3.13),
