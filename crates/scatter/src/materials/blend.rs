@@ -1,6 +1,6 @@
 //! `blend`: two materials at once.
 //!
-//! A tree of blends is walked down at each point, by one random [`Choice`] after another: what is left is a
+//! A tree of blends is walked down at each point, by one random `Choice` after another: what is left is a
 //! constituent with the probability of its share. A blend is linear in its constituents, so that has the right mean.
 
 mod choice;
