@@ -4,7 +4,7 @@
 //! the lamps and connects the two; Metropolis sampling walks among the paths of either. They share models and geometry,
 //! but hardly any density: what one gets wrong, another does not.
 
-use super::check::{ALL, Check, Quantity, Target};
+use super::check::{ALL, Check, Quantity, Renderer, Target};
 use super::cross::scenes::{self, Entry};
 use super::cross::stage;
 use super::hung;
@@ -14,7 +14,7 @@ use super::text::{ONE_PIXEL, basic, flat_camera, grey, medium, scene_file, setti
 
 const GROUP: &str = "One picture by all ways";
 /// Samples per pixel of each render.
-const SAMPLES: u32 = 64;
+const SAMPLES: u32 = 32;
 /// Share of its light that half of the blocks must show: Metropolis sampling gathers little in dark corners.
 const BLOCKS: f64 = 0.5;
 /// The scenes beside Mitsuba that are rendered by all ways in the quick form, too.
@@ -34,6 +34,8 @@ pub fn all() -> Vec<Check> {
 
 fn by_all_ways(name: &str, about: &str, scene: String) -> Check {
     let mut check = Check::new(GROUP, name, about, scene).unit(stage::UNIT).by(ALL).effort(SAMPLES, 1e-1);
+    // Paths that wander alone find the least.
+    check.longer = vec![(Renderer::PathMetropolis, 2)];
     check.blocks = BLOCKS;
     check.row("picture", Quantity::Y, None, Target::First(0.0))
 }
@@ -103,8 +105,11 @@ fn frosted_pane() -> Check {
     let materials = [medium("glass", 10, &basic(1.5, glass, "")), material("pane", kind)];
     let scene = room(&materials, ["white"; 4], &[cuboid("pane", [0.98, 0.98, 0.04], [0.0, -0.01, 0.7])]);
     // Metropolis sampling walks slowly here: too slowly for the samples of the others.
-    by_all_ways("frosted pane", "All light goes through a rough pane of coloured glass.", scene)
-        .effort(2 * SAMPLES, 1e-1)
+    let mut check =
+        by_all_ways("frosted pane", "All light goes through a rough pane of coloured glass.", scene)
+            .effort(2 * SAMPLES, 1e-1);
+    check.longer = vec![(Renderer::PathMetropolis, 6)];
+    check
 }
 
 /// Each wavelength goes a way of its own, far more so than in any glass.

@@ -107,7 +107,7 @@ pub struct Row {
 /// How finely a picture is rendered, and what must be seen in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Demand {
-    /// Samples per pixel of each render, by whichever renderer.
+    /// Samples per pixel of each render, but by those who take [longer](Check::longer).
     pub samples: u32,
     /// A deviation of this share of a number must be seen, or the number is unresolved, which fails.
     pub resolution: f64,
@@ -161,6 +161,8 @@ pub struct Check {
     pub renderers: Vec<Renderer>,
     /// The numbers.
     pub rows: Vec<Row>,
+    /// Who takes how many times as many samples as the others, who need fewer to show as much.
+    pub longer: Vec<(Renderer, u32)>,
     /// What the quick form renders, and must show.
     pub quick: Demand,
     /// What the full form does.
@@ -191,6 +193,7 @@ impl Check {
             unit: 1.0,
             renderers: THREE.to_vec(),
             rows: vec![],
+            longer: vec![],
             quick: Demand { samples: 256, resolution: 5e-3 },
             full: Demand { samples: 256, resolution: 5e-3 },
             blocks: 0.2,
@@ -229,6 +232,19 @@ impl Check {
     pub fn effort(self, samples: u32, resolution: f64) -> Self {
         let demand = Demand { samples, resolution };
         Self { quick: demand, full: demand, ..self }
+    }
+
+    /// With so many times the samples for one of those who render it.
+    #[must_use]
+    pub fn longer(mut self, renderer: Renderer, times: u32) -> Self {
+        self.longer.push((renderer, times));
+        self
+    }
+
+    /// Samples per pixel of each render by one of them.
+    pub fn samples(&self, form: Form, renderer: Renderer) -> u32 {
+        let times = self.longer.iter().find(|(longer, _)| *longer == renderer).map_or(1, |(_, times)| *times);
+        form.demand(self).samples * times
     }
 
     /// With other samples and another demand in the full form.

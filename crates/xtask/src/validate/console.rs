@@ -170,7 +170,7 @@ impl Console {
         for check in checks {
             for &renderer in check.renderers.iter().filter(|r| **r != Renderer::Mitsuba) {
                 self.write_scene(check, renderer)?;
-                let samples = form.demand(check).samples;
+                let samples = check.samples(form, renderer);
                 jobs.extend((0..form.seeds()).map(|seed| Job { check, renderer, seed, samples }));
             }
         }

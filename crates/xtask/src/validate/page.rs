@@ -111,9 +111,11 @@ fn article(checked: &Checked) -> String {
         let _ = write!(text, "<pre>{}</pre></article>", escaped(error));
         return text;
     }
+    let longer = check.longer.iter().map(|(who, times)| format!(", {} {times} times as many", who.name()));
+    let longer = longer.collect::<String>();
     let _ = write!(
         text,
-        "<p class=\"soft\">{} samples a pixel in each render; must show {} %, in blocks {} %.</p>",
+        "<p class=\"soft\">{} samples a pixel in each render{longer}; must show {} %, in blocks {} %.</p>",
         checked.demand.samples,
         two_digits(100.0 * checked.demand.resolution),
         two_digits(100.0 * check.blocks)

@@ -134,7 +134,9 @@ impl Report {
                 "name": c.check.name,
                 "about": c.check.about,
                 "unit_cd_per_m2": c.check.unit,
-                "samples_per_pixel": c.demand.samples,
+                "samples_per_pixel": c.check.renderers.iter()
+                    .map(|&renderer| (renderer.name().to_owned(), json!(c.check.samples(self.form, renderer))))
+                    .collect::<serde_json::Map<_, _>>(),
                 "seconds_of_renders": c.check.renderers.iter().zip(&c.seconds)
                     .map(|(renderer, seconds)| (renderer.name().to_owned(), json!(seconds)))
                     .collect::<serde_json::Map<_, _>>(),

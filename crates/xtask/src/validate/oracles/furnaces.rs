@@ -1,6 +1,6 @@
 //! Even light from everywhere, and rooms that shine evenly: a test of every cosine, density and weight.
 
-use super::super::check::{Check, Quantity, TECHNIQUES, THREE, Target};
+use super::super::check::{Check, Quantity, Renderer, TECHNIQUES, THREE, Target};
 use super::super::shapes::{Mesh, mesh_light, model};
 use super::super::text::{
     basic, grey, henyey_greenstein, medium, null, scattering, specular, sphere, uniform,
@@ -78,10 +78,10 @@ fn whites() -> Vec<Check> {
         furnace("nothing", about, &[null("m"), sheet(40.0)], 1.0),
         furnace("white clay at 70°", about, &[material("m", &clay), sheet(70.0)], 1.0)
             .by(TECHNIQUES)
-            .effort(512, 5e-3),
+            .effort(128, 5e-3),
         furnace("white coat at 70°", about, &[material("m", &coat), sheet(70.0)], 1.0)
             .by(TECHNIQUES)
-            .effort(512, 5e-3),
+            .effort(128, 5e-3),
     ];
     for (n, degrees) in [(20.0, 0.0), (300.0, 45.0), (1e12, 45.0)] {
         let parts = [metal(n), sheet(degrees)];
@@ -132,15 +132,16 @@ fn rooms() -> Vec<Check> {
     };
     let about = "All walls emit E and reflect ρ: E / (1 − ρ) in every direction, whatever the shape.";
     let mut checks = vec![];
-    for (name, mesh, albedo, samples) in [
-        ("ball, albedo 0.5", Mesh::ball(2), 0.5f64, 64),
-        ("cube, albedo 0.8", Mesh::cube(1.0), 0.8, 128),
-        ("ball, albedo 0.9", Mesh::ball(2), 0.9, 128),
+    for (name, mesh, albedo, chains) in [
+        ("ball, albedo 0.5", Mesh::ball(2), 0.5f64, 2),
+        ("cube, albedo 0.8", Mesh::cube(1.0), 0.8, 3),
+        ("ball, albedo 0.9", Mesh::ball(2), 0.9, 4),
     ] {
         let check =
             Check::new(GROUP, format!("shining {name}"), about, room(&mesh, albedo)).unit(AROUND_NITS).flat();
         let value = Target::Value(1.0 / (1.0 - albedo), 0.0);
-        checks.push(check.by(THREE).row("", Quantity::Y, None, value).effort(samples, 2e-2));
+        let check = check.by(THREE).row("", Quantity::Y, None, value).effort(32, 2e-2);
+        checks.push(check.longer(Renderer::Metropolis, chains));
     }
     checks
 }

@@ -94,7 +94,7 @@ fn flux() -> Check {
     // The lamp takes 3·10⁻⁶ of what flies about.
     with_file(Check::new(GROUP, "flux of a photometric lamp", about, scene).is(luminance, 1e-5 * luminance))
         .by(TECHNIQUES)
-        .effort(512, 1e-2)
+        .effort(256, 1e-2)
 }
 
 /// Height of the lamp above the floor, metres.
@@ -191,7 +191,7 @@ fn picture([x, y]: [f64; 2]) -> Check {
     );
     let scene = floor(&lamp, target);
     let name = format!("lamp with a picture, above ({x}, {y})");
-    let mut check = Check::new(GROUP, name, about, scene).is(value, 0.0).effort(128, 1e-2);
+    let mut check = Check::new(GROUP, name, about, scene).is(value, 0.0).effort(32, 1e-2);
     let value = |x: usize, _: usize| if x < TEXELS / 2 { 1.0 } else { DARKER as f32 };
     check.files.push(("halves.exr".to_owned(), hung::picture([TEXELS; 2], value)));
     check.by(if y == 0.0 { TECHNIQUES } else { PATH })

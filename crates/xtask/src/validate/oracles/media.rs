@@ -102,7 +102,7 @@ fn coloured_cube() -> Check {
     let [x, y, z] = tristimulus(360.0, 830.0, |nm| AROUND * 1e-9 * (-absorption(nm) * SIDE_M).exp());
     let about = "Beer and Lambert at each wavelength, exp(−σ(λ) d), under the observer by quadrature. Light of all wavelengths goes one way.";
     let check =
-        Check::new(GROUP, "coloured cube", about, scene).unit(AROUND_NITS).by(TECHNIQUES).effort(1024, 5e-3);
+        Check::new(GROUP, "coloured cube", about, scene).unit(AROUND_NITS).by(TECHNIQUES).effort(256, 5e-3);
     // Ways aslant are longer by at most a millionth.
     let exactly = |value: f64| Target::Value(value, 2e-6 * value);
     check

@@ -133,7 +133,7 @@ fn lit_by_map() -> Check {
                  half a texel: 10⁻⁵ of it.";
     let value = ALBEDO * 0.25 * parts.iter().sum::<f64>();
     let check = Check::new(GROUP, "a wall lit by surroundings", about, scene).unit(AROUND_NITS);
-    surroundings(check).is(value, 2e-5 * value).by(TECHNIQUES).effort(256, 5e-3)
+    surroundings(check).is(value, 2e-5 * value).by(TECHNIQUES).effort(64, 5e-3)
 }
 
 /// Glass that lets nothing through, raised by heights with one slope, seen at 60°: its reflectance tells the angle to the bent

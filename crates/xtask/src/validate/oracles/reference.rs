@@ -1,6 +1,6 @@
 //! Scenes that Mitsuba 3.9.1 rendered once to less than a thousandth, 32 × 32 pixels with a box filter.
 
-use super::super::check::{Check, Quantity, TECHNIQUES, THREE, Target};
+use super::super::check::{Check, Quantity, Renderer, TECHNIQUES, THREE, Target};
 use super::super::shapes::{Mesh, Point, mesh_light, model, sub};
 use super::super::statistics::Estimate;
 use super::super::text::{
@@ -72,9 +72,9 @@ pub fn checks() -> Vec<Check> {
     let fogs =
         "Extinction 2.5/m, albedo 0.8, Henyey and Greenstein with g = 0.6, in a ball of 1 m in even light.";
     let mut checks = vec![
-        open_box().check().by(THREE),
-        caustic().check().by(&THREE[1..]),
-        in_light("ball of fog", fogs, [(0.563_103, 5e-5), (0.432_291, 3.93e-4)], 128, fog(1.0))
+        open_box().check().by(THREE).longer(Renderer::Metropolis, 4),
+        caustic().check().by(&THREE[1..]).longer(Renderer::Metropolis, 2),
+        in_light("ball of fog", fogs, [(0.563_103, 5e-5), (0.432_291, 3.93e-4)], 64, fog(1.0))
             .check()
             .by(TECHNIQUES),
         in_light("fog in glass", fogs, [(0.441_540, 5.9e-5), (0.367_953, 6.05e-4)], 128, fog(1.33))
@@ -83,7 +83,7 @@ pub fn checks() -> Vec<Check> {
     ];
     let about = "R + (1 − R)² e / (1 − R e) for each ray, by quadrature of 2000 × 2000 rays.";
     checks.push(
-        in_light("absorbing glass ball", about, [(0.274_927, 0.0), (0.165_860, 0.0)], 256, absorbing)
+        in_light("absorbing glass ball", about, [(0.274_927, 0.0), (0.165_860, 0.0)], 64, absorbing)
             .check()
             .by(TECHNIQUES),
     );
@@ -97,7 +97,7 @@ fn metal(in_light: impl Fn(&'static str, &'static str, [(f64, f64); 2], u32, Str
     let about = "A smooth ball of metal, n = 0.4241, k = 2.4721, in even light.";
     let mean = [(0.809_084, 1e-6), (0.791_580, 5e-7)];
     let mut check =
-        in_light("smooth metal ball", about, mean, 256, material("m", kind)).check().by(TECHNIQUES);
+        in_light("smooth metal ball", about, mean, 64, material("m", kind)).check().by(TECHNIQUES);
     check.files.push(("metal.nk".to_owned(), constant_nk(0.4241, 2.4721)));
     check
 }
@@ -126,7 +126,7 @@ fn open_box() -> Stored {
         degrees: 36.0,
         mean: [(0.223_427, 6.3e-5), (0.205_877, 8.4e-5)],
         judges_middle: true,
-        samples: 128,
+        samples: 32,
         parts,
     }
 }
@@ -150,7 +150,7 @@ fn caustic() -> Stored {
         mean: [(0.110_569, 6.1e-5), (0.051_045, 7.34e-4)],
         // Light that passes glass twice after the floor: rare and bright, in Mitsuba's picture too.
         judges_middle: false,
-        samples: 192,
+        samples: 48,
         parts,
     }
 }
