@@ -32,5 +32,5 @@ mod write;
 pub use embedded::{EMBEDDED, EXPOSE_UV_SET, TRIANGLE_SET, VERTEX};
 pub use include::INCLUDE;
 pub use limits::Limits;
-pub use read::{read_document, read_scene};
+pub use read::{read_document, read_scene, read_scene_until};
 pub use write::{write, write_explained};

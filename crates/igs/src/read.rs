@@ -23,9 +23,22 @@ pub fn read_scene(
     sink: &mut Sink,
     limits: &Limits,
 ) -> Option<Element> {
-    let mut reader = Reader::new(resolver, sources, sink, limits);
+    read_scene_until(path, resolver, sources, sink, limits, &|| false)
+}
+
+/// [`read_scene`], unless it is not wanted any more: `is_stopped` is asked before each file and after each mebibyte of one. From
+/// when it says so on nothing is read and `None` is returned; what went to `sink` tells less than all then.
+pub fn read_scene_until(
+    path: &str,
+    resolver: &dyn Resolver,
+    sources: &mut SourceMap,
+    sink: &mut Sink,
+    limits: &Limits,
+    is_stopped: &dyn Fn() -> bool,
+) -> Option<Element> {
+    let mut reader = Reader::new(resolver, sources, sink, limits, is_stopped);
     let file = reader.resolve(path, "", None)?;
-    reader.scene(&file, None)
+    reader.scene(&file, None).filter(|_| !is_stopped())
 }
 
 /// Reads one file of any root; nothing is included.
@@ -36,7 +49,7 @@ pub fn read_document(
     sink: &mut Sink,
     limits: &Limits,
 ) -> Option<Element> {
-    let mut reader = Reader::new(resolver, sources, sink, limits);
+    let mut reader = Reader::new(resolver, sources, sink, limits, &|| false);
     let file = reader.resolve(path, "", None)?;
     reader.document(&file, None)
 }
@@ -82,6 +95,8 @@ struct Reader<'a> {
     elements_left: usize,
     /// Whether a limit was exceeded, which was reported.
     exceeded: bool,
+    /// Whether to read no further.
+    is_stopped: &'a dyn Fn() -> bool,
 }
 
 impl<'a> Reader<'a> {
@@ -90,6 +105,7 @@ impl<'a> Reader<'a> {
         sources: &'a mut SourceMap,
         sink: &'a mut Sink,
         limits: &'a Limits,
+        is_stopped: &'a dyn Fn() -> bool,
     ) -> Self {
         Self {
             resolver,
@@ -101,6 +117,7 @@ impl<'a> Reader<'a> {
             files_left: limits.files,
             elements_left: limits.elements,
             exceeded: false,
+            is_stopped,
         }
     }
 
@@ -162,8 +179,9 @@ impl<'a> Reader<'a> {
             return None;
         };
         let errors = self.sink.error_count();
-        let root = tree::parse(&file.bytes, source, self.limits, &mut self.elements_left, self.sink);
-        if root.is_none() && self.sink.error_count() == errors {
+        let (left, is_stopped) = (&mut self.elements_left, self.is_stopped);
+        let root = tree::parse(&file.bytes, source, self.limits, left, self.sink, is_stopped);
+        if root.is_none() && self.sink.error_count() == errors && !is_stopped() {
             self.sink.push(
                 Diagnostic::error(codes::WRONG_ROOT, Span::new(source, 0, 0), "this file holds no element")
                     .expected("expected <scene>"),
@@ -213,8 +231,8 @@ impl<'a> Reader<'a> {
             self.exceed(Some(span), format!("includes are nested deeper than {}", self.limits.include_depth));
             return vec![];
         }
-        if self.files_left == 0 && self.exceeded || self.elements_left == 0 {
-            // Nothing more can be read, and it was said.
+        if self.files_left == 0 && self.exceeded || self.elements_left == 0 || (self.is_stopped)() {
+            // Nothing more can be read, and it was said, or nothing more is wanted.
             return vec![];
         }
         let from = self.chain.last().map_or_else(String::new, |file| file.path.clone());

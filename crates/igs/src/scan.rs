@@ -31,6 +31,9 @@ pub(crate) struct RawAttribute {
     pub value: Range<usize>,
 }
 
+/// After so many bytes it is asked whether to go on: some milliseconds of reading.
+const BETWEEN_QUESTIONS: usize = 1 << 20;
+
 /// Reads tokens one after the other.
 pub(crate) struct Scanner<'a> {
     /// The whole file.
@@ -43,15 +46,35 @@ pub(crate) struct Scanner<'a> {
     pub at: usize,
     /// How non-ASCII bytes are to be read.
     pub encoding: text::Encoding,
-    /// Whether the file ended inside a tag, a comment or the like, which was reported.
+    /// Whether the file ended inside a tag, a comment or the like, which was reported, or is not wanted any more.
     pub cut_off: bool,
+    /// Whether to read no further.
+    is_stopped: &'a dyn Fn() -> bool,
+    /// Where that is asked next.
+    asks_at: usize,
 }
 
 impl<'a> Scanner<'a> {
     /// At the beginning of a file.
     pub fn new(bytes: &'a [u8], source: SourceId) -> Self {
+        Self::until(bytes, source, &|| false)
+    }
+
+    /// At the beginning of a file that ends, as it were, when it is not wanted any more.
+    pub fn until(bytes: &'a [u8], source: SourceId, is_stopped: &'a dyn Fn() -> bool) -> Self {
         let at = if bytes.starts_with(b"\xEF\xBB\xBF") { 3 } else { 0 };
-        Self { bytes, source, attributes: vec![], at, encoding: text::Encoding::default(), cut_off: false }
+        let encoding = text::Encoding::default();
+        Self { bytes, source, attributes: vec![], at, encoding, cut_off: false, is_stopped, asks_at: 0 }
+    }
+
+    /// Goes to the end of the file if it is not wanted any more.
+    fn ask(&mut self) {
+        if self.at >= self.asks_at {
+            self.asks_at = self.at + BETWEEN_QUESTIONS;
+            if (self.is_stopped)() {
+                (self.at, self.cut_off) = (self.bytes.len(), true);
+            }
+        }
     }
 
     /// The place of some bytes.
@@ -87,6 +110,7 @@ impl<'a> Scanner<'a> {
 
     /// The next token, or `None` at the end of the file.
     pub fn next(&mut self, sink: &mut Sink) -> Option<Token> {
+        self.ask();
         while self.at < self.bytes.len() {
             if self.byte(self.at) != Some(b'<') {
                 return Some(self.text(sink));

@@ -38,14 +38,15 @@ struct Builder<'a, 'r> {
 
 /// Reads the text of one file.
 ///
-/// `None` if there is no root element. After a syntax error the tree holds what could be read; an
-/// element that the file ends in is left out, since most of it may be missing.
+/// `None` if there is no root element. After a syntax error, or where reading was stopped, the tree holds what could be
+/// read; an element that the file ends in is left out, since most of it may be missing.
 pub(crate) fn parse(
     bytes: &[u8],
     source: SourceId,
     limits: &Limits,
     elements_left: &mut usize,
     sink: &mut Sink,
+    is_stopped: &dyn Fn() -> bool,
 ) -> Option<Element> {
     if text::is_wide(bytes) {
         sink.push(
@@ -58,7 +59,7 @@ pub(crate) fn parse(
         );
         return None;
     }
-    let scanner = Scanner::new(bytes, source);
+    let scanner = Scanner::until(bytes, source, is_stopped);
     let mut builder = Builder {
         scanner,
         sink,

@@ -9,7 +9,7 @@ use crate::settings::{Origin, Settings};
 use indigo_decl::{Element, Node, Resolver, bind};
 use indigo_diag::{Sink, SourceMap, Span, Spanned};
 use indigo_geom::{NoStore, Stop, TreeStore};
-use indigo_igs::{Limits, read_document, read_scene};
+use indigo_igs::{Limits, read_document, read_scene_until};
 use std::collections::HashSet;
 
 /// A setting given on the command line.
@@ -145,7 +145,8 @@ pub(crate) fn read_and_bind(
     sources: &mut SourceMap,
     sink: &mut Sink,
 ) -> Option<Bound> {
-    let root = read_scene(path, options.resolver, sources, sink, &options.limits)?;
+    let is_stopped = || options.is_stopped();
+    let root = read_scene_until(path, options.resolver, sources, sink, &options.limits, &is_stopped)?;
     let outline = Outline::new(&root);
     let nowhere = root.span;
     let root = bind(root, &SCENE, sink);

@@ -8,7 +8,7 @@ use indigo_math::rng::{Rng, key};
 use indigo_scene::schema::geometry::{MATERIALS, MODEL};
 use indigo_scene::schema::settings::RENDERER_SETTINGS;
 use indigo_scene::schema::{SCENE, emission, tonemapping};
-use indigo_scene::{LoadOptions, Loaded, load};
+use indigo_scene::{LoadOptions, Loaded, Stop, load};
 use indigo_texture::declare::{SPHERICAL, TEX_COORD_GENERATION};
 use std::time::{Duration, Instant};
 
@@ -42,6 +42,17 @@ fn check(bytes: Vec<u8>) -> (Vec<String>, usize) {
     }
     let text = sink.diagnostics().iter().map(|d| to_text(d, &sources, Style::Plain)).collect();
     (text, sink.error_count())
+}
+
+#[test]
+fn nothing_more_is_read_of_a_scene_that_is_not_wanted() {
+    let one = One(b"<scene><nonsense/></scene>".to_vec());
+    let stop = Stop::default();
+    let load = || load("scene.igs", &LoadOptions { stop: Some(&stop), ..LoadOptions::new(&one) });
+    assert!(load().settings.is_some());
+    stop.set();
+    let stopped = load();
+    assert!(stopped.settings.is_none() && stopped.sink.diagnostics().is_empty());
 }
 
 /// An example with one more child.

@@ -255,7 +255,8 @@ fn check(text: &str) -> Result<(), EditError> {
     }
     let mut sink = Sink::new();
     let limits = Limits::default();
-    let root = tree::parse(text.as_bytes(), SourceId(0), &limits, &mut { limits.elements }, &mut sink);
+    let root =
+        tree::parse(text.as_bytes(), SourceId(0), &limits, &mut { limits.elements }, &mut sink, &|| false);
     let fault = sink.diagnostics().iter().find(|d| d.severity == Severity::Error);
     match (fault, root) {
         (None, Some(_)) => Ok(()),

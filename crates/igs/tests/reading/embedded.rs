@@ -1,7 +1,10 @@
 //! Embedded meshes: arrays, and the places of faults.
 
-use crate::common::Read;
+use crate::common::{Files, Read};
 use indigo_decl::EmbeddedMesh;
+use indigo_diag::{Sink, SourceMap};
+use indigo_igs::{Limits, read_scene_until};
+use std::cell::Cell;
 
 fn read(inside: &str) -> (EmbeddedMesh, Vec<String>) {
     let text =
@@ -164,4 +167,30 @@ fn triangles_of_a_bad_vertex_are_not_counted_as_degenerate() {
     assert_eq!((findings.len(), mesh.data.degenerate.len()), (1, 0), "{findings:?}");
     let vertices = "<vertex pos=\"0 0 0\"/><vertex pos=\"0 0 0\"/><vertex pos=\"0 1 0\"/>";
     assert_eq!(read(&format!("{vertices}{SET}")).0.data.degenerate.len(), 1);
+}
+
+/// A file can be hundreds of megabytes of one mesh: it is asked amid them whether anybody still wants it.
+#[test]
+fn reading_is_stopped_within_a_mesh() {
+    const MEBIBYTES: usize = 8;
+    let vertex = "<vertex pos=\"1 2 3\" />\n";
+    let text = format!(
+        "<scene><mesh><name>m</name><embedded>{}</embedded></mesh></scene>",
+        vertex.repeat((MEBIBYTES << 20) / vertex.len())
+    );
+    let files = Files::scene(text.as_bytes());
+    // Whether a scene comes, how often was asked, and how much was found, where the answer is no from some question on.
+    let read = |last: usize| {
+        let asked = Cell::new(0);
+        let is_stopped = || asked.replace(asked.get() + 1) >= last;
+        let (mut sources, mut sink) = (SourceMap::default(), Sink::new());
+        let root =
+            read_scene_until("scene.igs", &files, &mut sources, &mut sink, &Limits::default(), &is_stopped);
+        (root.is_some(), asked.get(), sink.diagnostics().len())
+    };
+    let (is_read, asked, _) = read(usize::MAX);
+    assert!(is_read && asked >= MEBIBYTES, "{asked}");
+    let (is_read, asked, found) = read(2);
+    // The third question is answered so, and what was read until then is not judged: it is not known whether it is whole.
+    assert!(!is_read && (3..MEBIBYTES).contains(&asked) && found == 0, "{asked}, {found}");
 }
