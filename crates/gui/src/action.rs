@@ -1,8 +1,12 @@
 //! What the window is asked to do, by whichever panel or key asked for it.
 
 use crate::engine::Command;
+use crate::words;
 use indigo_render::output::OneFile;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+
+/// Endings of pictures to compare with.
+pub const PICTURES: &[&str] = &["png", "exr", "jpg", "jpeg", "tif", "tiff", "hdr"];
 
 /// What a dialog asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,6 +25,21 @@ pub enum Ask {
     NewKey,
 }
 
+impl Ask {
+    /// Whether a file is to be written there.
+    pub fn writes(self) -> bool {
+        matches!(self, Self::Save(_) | Self::NewKey)
+    }
+
+    /// A path that was given, which gets the ending of its kind where it has none.
+    pub fn completed(self, path: PathBuf) -> PathBuf {
+        match self {
+            Self::Save(what) if path.extension().is_none() => path.with_extension(words::ending(what)),
+            _ => path,
+        }
+    }
+}
+
 /// What is to be done.
 pub enum Action {
     /// Tell the engine.
@@ -29,16 +48,49 @@ pub enum Action {
     Open(PathBuf),
     /// Ask the user for a path.
     Ask(Ask),
+    /// Take a path for what was asked.
+    Asked(Ask, PathBuf),
     /// Load the scene again, with another mode.
     Restart,
     /// Read the scene's elements.
     ReadElements,
-    /// Write what was changed in them.
-    SaveElements,
+    /// Write what was changed in them; what is done then.
+    SaveElements(Box<Action>),
     /// Write how the picture is developed into the scene.
     WriteSettings,
     /// Begin the queue, or go on with it.
     RunQueue,
+    /// Close the window if nothing stands against it.
+    TryToClose,
     /// Close the window.
     Close,
+}
+
+impl Action {
+    /// Whether the scene that is open is open no longer then, or read anew.
+    pub fn leaves_scene(&self) -> bool {
+        match self {
+            Self::Open(path) => !has_ending(path, PICTURES),
+            Self::Restart | Self::RunQueue | Self::TryToClose => true,
+            _ => false,
+        }
+    }
+}
+
+/// Whether a path has one of some endings.
+pub fn has_ending(path: &Path, endings: &[&str]) -> bool {
+    path.extension().is_some_and(|ending| endings.iter().any(|one| ending.eq_ignore_ascii_case(one)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_get_the_ending_of_their_kind() {
+        let completed = |what, path: &str| Ask::Save(what).completed(path.into());
+        assert_eq!(completed(OneFile::Luminances, "a/b"), PathBuf::from("a/b.exr"));
+        assert_eq!(completed(OneFile::Picture, "a/b.PNG"), PathBuf::from("a/b.PNG"));
+        assert_eq!(Ask::NewKey.completed("key".into()), PathBuf::from("key"));
+    }
 }

@@ -1,10 +1,13 @@
 //! The window: it hands what happens to the panels, and what they ask for to the engine.
 
-use crate::action::{Action, Ask};
+mod asking;
+
+use crate::action::{Action, Ask, PICTURES, has_ending};
 use crate::comparison;
-use crate::engine::{Command, Engine, Phase, Request, Shown};
+use crate::engine::{Command, Engine, Request, Shown};
 use crate::log::{Line, Weight};
 use crate::panels::{self, Textures};
+use crate::question::{PathLine, Question};
 use crate::recent::Recent;
 use crate::scene_file::SceneFile;
 use crate::state::{Foot, Picture, State};
@@ -14,8 +17,6 @@ use eframe::egui::{
     ViewportCommand,
 };
 use indigo_front::flags::{Arguments, Role};
-use indigo_front::net::make_key;
-use indigo_render::output::OneFile;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -23,13 +24,12 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 /// Where the files that were opened lately are remembered.
 const RECENT: &str = "recent";
 
-/// Endings of pictures to compare with.
-const PICTURES: &[&str] = &["png", "exr", "jpg", "jpeg", "tif", "tiff", "hdr"];
-
 /// What comes back from threads that wait for the user or a disk.
 enum Answer {
     /// A path for what was asked.
     Path(Ask, PathBuf),
+    /// The desktop cannot ask for it.
+    NoDialog(PathLine),
     /// A picture to compare with.
     Comparison(PathBuf, Result<ColorImage, String>),
     /// The elements of a scene.
@@ -86,6 +86,7 @@ impl App {
         for answer in self.answers.try_iter().collect::<Vec<_>>() {
             match answer {
                 Answer::Path(ask, path) => self.asked(ask, path, context),
+                Answer::NoDialog(line) => self.state.question = Some(Question::Path(line)),
                 Answer::Comparison(path, Ok(image)) => {
                     self.textures.other = Some(context.load_texture("other", image.clone(), options()));
                     self.state.comparison.picture = Some((path, Arc::new(image)));
@@ -94,10 +95,23 @@ impl App {
                     }
                 }
                 Answer::Elements(file) => match *file {
-                    Ok(file) => self.state.file = Some(file),
+                    // Another scene may be open by now.
+                    Ok(file) if self.state.path.as_deref() != Some(file.path()) => {}
+                    Ok(mut file) => {
+                        if let Some(earlier) = self.state.file.take() {
+                            file.take_changes(&earlier);
+                        }
+                        self.state.file = Some(file);
+                    }
                     Err(text) => self.complain(text),
                 },
-                Answer::Written(Ok(files)) => self.tell_written(&files),
+                Answer::Written(Ok(files)) => {
+                    self.tell_written(&files);
+                    // They are read again, so that changes of theirs can still be saved.
+                    if self.state.file.is_some() {
+                        self.read_elements(context);
+                    }
+                }
                 Answer::Comparison(_, Err(text)) | Answer::Written(Err(text)) => self.complain(text),
             }
         }
@@ -115,16 +129,12 @@ impl App {
         self.state.log.add(Line { weight: Weight::Info, text });
     }
 
-    fn take_key(&mut self, path: &Path) {
-        match path.to_str() {
-            Some(text) => text.clone_into(&mut self.state.part.key_file),
-            None => self.complain(words::not_text(path)),
-        }
-    }
-
     fn tell_written(&mut self, files: &[PathBuf]) {
         // That it worked is to be seen.
         self.state.foot = Foot::Log;
+        if files.is_empty() {
+            self.say(words::NOTHING_TO_WRITE.to_owned());
+        }
         for file in files {
             self.say(words::saved(file));
         }
@@ -139,8 +149,8 @@ impl App {
         });
     }
 
-    /// Writes changed elements, and loads the scene with them.
-    fn save_elements(&mut self) {
+    /// Writes changed elements, and goes on with what is to be done then.
+    fn save_elements(&mut self, then: Action) {
         let Some(file) = &self.state.file else { return };
         match file.save() {
             Ok(files) => {
@@ -148,20 +158,20 @@ impl App {
                 self.state.mode_is_chosen &= !file.changes_any(&["bidirectional", "metropolis", "hybrid"]);
                 self.tell_written(&files);
                 self.state.file = None;
-                self.state.act(Action::Restart);
+                self.state.act(then);
             }
             Err(text) => self.complain(text),
         }
     }
 
     fn write_settings(&mut self, context: &Context) {
-        let (Some(path), Some(controls)) = (self.state.path.clone(), self.state.controls.clone()) else {
+        let State { path: Some(path), controls: Some(controls), base: Some(base), .. } = &self.state else {
             return;
         };
-        let has_filter = self.state.base.as_ref().is_some_and(|base| base.diffraction.is_some());
+        let (path, controls, base) = (path.clone(), controls.clone(), base.clone());
         let (answer, context) = (self.answer.clone(), context.clone());
         self.spawn("settings", move || {
-            let written = SceneFile::read(&path).and_then(|file| file.save_controls(&controls, has_filter));
+            let written = SceneFile::read(&path).and_then(|file| file.save_controls(&controls, &base));
             drop(answer.send(Answer::Written(written)));
             context.request_repaint();
         });
@@ -183,32 +193,44 @@ impl App {
         });
     }
 
-    /// Does all that was asked for.
+    /// Does all that was asked for, and what that asks for in turn.
     fn act(&mut self, context: &Context) {
-        for action in std::mem::take(&mut self.state.actions) {
-            match action {
-                Action::Command(command) => self.command(command),
-                Action::Open(path) => {
-                    // Who opens a scene wants that one next.
-                    self.state.queue.leave();
-                    self.open(&path, true, context);
+        while !self.state.actions.is_empty() {
+            for action in std::mem::take(&mut self.state.actions) {
+                match self.state.allowed(action) {
+                    Some(action) => self.do_action(action, context),
+                    // The question has its part of a frame behind it already.
+                    None => context.request_repaint(),
                 }
-                Action::Ask(ask) => self.ask(ask, context),
-                Action::Restart => {
-                    if let Some(request) = self.state.request_again() {
-                        self.load(request);
-                    } else if let Some(path) = self.state.wanted.clone() {
-                        self.open(Path::new(&path), false, context);
-                    }
+            }
+        }
+    }
+
+    fn do_action(&mut self, action: Action, context: &Context) {
+        match action {
+            Action::Command(command) => self.command(command),
+            Action::Open(path) => {
+                // Who opens a scene wants that one next.
+                self.state.queue.leave();
+                self.open(&path, true, context);
+            }
+            Action::Ask(ask) => self.ask(ask, context),
+            Action::Asked(ask, path) => self.asked(ask, path, context),
+            Action::Restart => {
+                if let Some(request) = self.state.request_again() {
+                    self.load(request);
+                } else if let Some(path) = self.state.wanted.clone() {
+                    self.open(Path::new(&path), false, context);
                 }
-                Action::ReadElements => self.read_elements(context),
-                Action::SaveElements => self.save_elements(),
-                Action::WriteSettings => self.write_settings(context),
-                Action::RunQueue => self.run_queue(),
-                Action::Close => {
-                    self.is_gone = true;
-                    context.send_viewport_cmd(ViewportCommand::Close);
-                }
+            }
+            Action::ReadElements => self.read_elements(context),
+            Action::SaveElements(then) => self.save_elements(*then),
+            Action::WriteSettings => self.write_settings(context),
+            Action::RunQueue => self.run_queue(),
+            Action::TryToClose => context.send_viewport_cmd(ViewportCommand::Close),
+            Action::Close => {
+                self.is_gone = true;
+                context.send_viewport_cmd(ViewportCommand::Close);
             }
         }
     }
@@ -225,12 +247,9 @@ impl App {
 
     /// Opens a scene, a film, or a picture to compare with, by its ending.
     fn open(&mut self, path: &Path, starts: bool, context: &Context) {
-        let is_one_of = |endings: &[&str]| {
-            path.extension().is_some_and(|ending| endings.iter().any(|one| ending.eq_ignore_ascii_case(one)))
-        };
-        if is_one_of(PICTURES) {
+        if has_ending(path, PICTURES) {
             self.asked(Ask::Compare, path.to_path_buf(), context);
-        } else if is_one_of(&["igi"]) {
+        } else if has_ending(path, &["igi"]) {
             self.send(Command::OpenFilm(path.to_path_buf()));
             self.state.recent.add(path);
         } else if let Some(path) = path.to_str() {
@@ -260,82 +279,20 @@ impl App {
         }
     }
 
-    /// Asks for a path by the desktop's own dialog, on a thread that waits for it.
-    fn ask(&mut self, ask: Ask, context: &Context) {
-        let dialog = rfd::AsyncFileDialog::new();
-        let folder = self.state.wanted.as_deref().and_then(|path| Path::new(path).parent());
-        let dialog = match folder.filter(|folder| folder.is_dir()) {
-            Some(folder) => dialog.set_directory(folder),
-            None => dialog,
-        };
-        let stem = self.state.path.as_deref().and_then(|path| Path::new(path).file_stem());
-        let name = |ending: &str| format!("{}.{ending}", stem.unwrap_or_default().to_string_lossy());
-        let scenes = &["igs", "pigs"];
-        let asked: std::pin::Pin<Box<dyn Future<Output = Option<rfd::FileHandle>> + Send>> = match ask {
-            Ask::Open => {
-                Box::pin(dialog.add_filter(words::SCENES_AND_FILMS, &["igs", "pigs", "igi"]).pick_file())
-            }
-            Ask::Queue => Box::pin(dialog.add_filter(words::SCENES, scenes).pick_file()),
-            Ask::Compare => Box::pin(dialog.add_filter(words::PICTURES, PICTURES).pick_file()),
-            Ask::Key => Box::pin(dialog.pick_file()),
-            Ask::NewKey => Box::pin(dialog.set_file_name(words::KEY_NAME).save_file()),
-            Ask::Save(what) => {
-                let ending = words::ending(what);
-                Box::pin(dialog.add_filter(ending, &[ending]).set_file_name(name(ending)).save_file())
-            }
-        };
-        let (answer, context) = (self.answer.clone(), context.clone());
-        let waiting = move || {
-            if let Some(file) = pollster::block_on(asked) {
-                // The window may be closed by now.
-                drop(answer.send(Answer::Path(ask, file.path().to_path_buf())));
-                context.request_repaint();
-            }
-        };
-        self.spawn("dialog", waiting);
-    }
-
-    fn asked(&mut self, ask: Ask, path: PathBuf, context: &Context) {
-        match ask {
-            Ask::Open => self.state.act(Action::Open(path)),
-            Ask::Queue => self.state.queue.add(path),
-            Ask::Save(what) => {
-                let path = with_ending(path, what);
-                self.send(Command::Save(what, path));
-            }
-            Ask::Key => self.take_key(&path),
-            Ask::NewKey => match make_key(&path) {
-                Ok(()) => {
-                    self.say(words::key_made(&path));
-                    self.take_key(&path);
-                }
-                Err(text) => self.complain(text),
-            },
-            Ask::Compare => {
-                let (answer, context) = (self.answer.clone(), context.clone());
-                self.spawn("compare", move || {
-                    let read = comparison::read(&path);
-                    drop(answer.send(Answer::Comparison(path, read)));
-                    context.request_repaint();
-                });
-            }
-        }
-    }
-
     fn spawn(&mut self, name: &str, work: impl FnOnce() + Send + 'static) {
         if let Err(error) = std::thread::Builder::new().name(name.to_owned()).spawn(work) {
             self.complain(error.to_string());
         }
     }
 
-    /// A render is not lost by closing the window.
+    /// Neither a render nor changed elements are lost by closing the window.
     fn tend_closing(&mut self, context: &Context) {
         if !context.input(|input| input.viewport().close_requested()) || self.is_gone {
             return;
         }
-        if matches!(self.state.phase, Phase::Rendering | Phase::Paused) {
+        if let Some(question) = self.state.question_before_closing() {
             context.send_viewport_cmd(ViewportCommand::CancelClose);
-            self.state.asks_to_close = true;
+            self.state.question = Some(question);
             // The question has its part of a frame behind it already.
             context.request_repaint();
         }
@@ -351,12 +308,15 @@ impl eframe::App for App {
         let state = &mut self.state;
         Panel::top("tools").exact_size(theme::TOOL_BAR).frame(bar).show(ui, |ui| panels::toolbar(ui, state));
         Panel::bottom("status").exact_size(theme::LINE).frame(bar).show(ui, |ui| panels::status(ui, state));
-        Panel::bottom("foot").exact_size(theme::FOOT).show(ui, |ui| panels::foot(ui, state));
+        // How high it was made is remembered with what egui keeps.
+        let foot =
+            Panel::bottom("foot").resizable(true).default_size(theme::FOOT).size_range(theme::FOOT_HEIGHTS);
+        foot.show(ui, |ui| panels::foot(ui, state));
         Panel::right("side").exact_size(theme::SIDE).show(ui, |ui| panels::side(ui, state));
         let textures = &self.textures;
         let middle = Frame::central_panel(ui.style()).inner_margin(0);
         CentralPanel::default().frame(middle).show(ui, |ui| panels::picture(ui, state, textures));
-        panels::ask_to_close(&context, &mut self.state);
+        panels::questions(&context, &mut self.state);
         if std::mem::take(&mut self.state.wants_other_theme) {
             context.set_theme(if ui.visuals().dark_mode { egui::Theme::Light } else { egui::Theme::Dark });
         }
@@ -381,21 +341,5 @@ fn options() -> TextureOptions {
         minification: TextureFilter::Linear,
         mipmap_mode: Some(TextureFilter::Linear),
         ..TextureOptions::LINEAR
-    }
-}
-
-/// What has no ending gets that of its kind.
-fn with_ending(path: PathBuf, what: OneFile) -> PathBuf {
-    if path.extension().is_some() { path } else { path.with_extension(words::ending(what)) }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn files_get_the_ending_of_their_kind() {
-        assert_eq!(with_ending("a/b".into(), OneFile::Luminances), PathBuf::from("a/b.exr"));
-        assert_eq!(with_ending("a/b.PNG".into(), OneFile::Picture), PathBuf::from("a/b.PNG"));
     }
 }

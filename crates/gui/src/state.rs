@@ -1,18 +1,21 @@
 //! All that the window shows and remembers, as plain data.
 
 mod news;
+mod pointing;
+
+pub use pointing::{Gesture, between};
 
 use crate::action::Action;
 use crate::comparison::Comparison;
 use crate::controls::Controls;
 use crate::engine::{Command, Histogram, Kept, LoadedFacts, Phase, Request};
-use crate::log::{Finding, Line, Log, SourceView, Weight};
+use crate::log::{Finding, Log, SourceView};
 use crate::part::Part;
+use crate::question::Question;
 use crate::queue::Queue;
 use crate::recent::Recent;
 use crate::scene_file::SceneFile;
 use crate::view::View;
-use crate::words;
 use crate::work::{Mode, Work};
 use eframe::egui::Pos2;
 use indigo_diag::SourceMap;
@@ -139,6 +142,12 @@ pub struct State {
     pub drag_from: Option<Pos2>,
     /// The pixel under the pointer.
     pub hovered: Option<[u32; 2]>,
+    /// The pixel that keys point at.
+    pub cross: Option<[u32; 2]>,
+    /// The corner of a region at which that began to be drawn by keys.
+    pub corner: Option<[u32; 2]>,
+    /// What keys want of the picture.
+    pub gestures: Vec<Gesture>,
     /// The picture that is compared with.
     pub comparison: Comparison,
     /// What the panel on the right shows.
@@ -149,10 +158,10 @@ pub struct State {
     pub recent: Recent,
     /// Scenes to render.
     pub queue: Queue,
-    /// Whether the user is asked what to do with a running render before the window closes.
-    pub asks_to_close: bool,
-    /// Whether the next picture is to be shown pixel by pixel.
-    pub wants_one_to_one: bool,
+    /// What the user is asked.
+    pub question: Option<Question>,
+    /// Whether the panel of the scene shows its elements.
+    pub shows_elements: bool,
     /// Whether the theme is to change.
     pub wants_other_theme: bool,
     /// Whether conditions of the render were changed and not sent yet.
@@ -194,13 +203,16 @@ impl State {
             tool: Tool::Pan,
             drag_from: None,
             hovered: None,
+            cross: None,
+            corner: None,
+            gestures: vec![],
             comparison: Comparison::default(),
             tab: Tab::Picture,
             foot: Foot::Log,
             recent,
             queue: Queue::default(),
-            asks_to_close: false,
-            wants_one_to_one: false,
+            question: None,
+            shows_elements: false,
             wants_other_theme: false,
             work_is_new: false,
             title: String::new(),
@@ -227,6 +239,12 @@ impl State {
     /// Whether the film grows, or would after a pause: what can be saved now and again.
     pub fn has_growing_film(&self) -> bool {
         matches!(self.phase, Phase::Rendering | Phase::Paused)
+    }
+
+    /// The time that the render will still take, while it is under way: none passes in a pause, and nothing is left afterwards.
+    pub fn time_left(&self) -> Option<Duration> {
+        let goes_on = matches!(self.phase, Phase::Rendering | Phase::Slave);
+        self.progress.filter(|_| goes_on).and_then(|progress| progress.left)
     }
 
     /// Whether this is the master of the render that is under way.
@@ -286,7 +304,8 @@ impl State {
             film: None,
             halts_at: self.queue.runs.then_some(self.queue.halts_at),
             kept: self.work.map(|work| Kept { work, of_files }),
-            ..self.request(path, self.is_under_way())
+            // What rests goes on resting.
+            ..self.request(path, self.phase == Phase::Rendering)
         };
         if self.mode_is_chosen {
             request.arguments.settings.extend(mode.overrides());
@@ -317,33 +336,6 @@ impl State {
             self.controls_changed();
         }
     }
-
-    /// Takes a place of the picture for grey: the mean of the pixels around, which are noisy one by one.
-    pub fn take_grey(&mut self, at: [u32; 2]) {
-        let (Some(picture), Some(controls)) = (&self.picture, &mut self.controls) else { return };
-        if controls.take_grey(mean_around(&picture.light, at)) {
-            self.tool = Tool::Pan;
-            self.controls_changed();
-        } else {
-            self.log.add(Line { weight: Weight::Warning, text: words::NO_GREY.to_owned() });
-        }
-    }
-}
-
-/// The mean light of the five by five pixels round one, as far as they are in the picture.
-fn mean_around(light: &XyzImage, [x, y]: [u32; 2]) -> [f32; 3] {
-    let (width, height) = (light.size.width(), light.size.height());
-    let around = |middle: u32, end: u32| middle.saturating_sub(2)..(middle.saturating_add(3)).min(end);
-    let places = around(y, height).flat_map(|y| around(x, width).map(move |x| (x, y)));
-    let (mut sum, mut count) = ([0.0; 3], 0.0);
-    for (x, y) in places {
-        let Some(pixel) = light.pixels.get(y as usize * width as usize + x as usize) else { continue };
-        for (sum, value) in sum.iter_mut().zip(pixel) {
-            *sum += value;
-        }
-        count += 1.0;
-    }
-    sum.map(|sum| sum / f32::max(count, 1.0))
 }
 
 #[cfg(test)]
@@ -365,6 +357,31 @@ mod tests {
         state.phase = Phase::Paused;
         state.start_or_pause();
         assert!(matches!(state.actions.pop(), Some(Action::Command(Command::Resume))));
+    }
+
+    #[test]
+    fn time_left_passes_only_while_something_is_rendered() {
+        let mut state = state();
+        let left = Some(Duration::from_secs(30));
+        state.progress = Some(Progress {
+            samples: 0,
+            samples_per_pixel: 0.0,
+            samples_per_second: 0.0,
+            rays: 0,
+            elapsed: Duration::ZERO,
+            left,
+            fraction: None,
+            relative_error: None,
+        });
+        for (phase, expected) in [
+            (Phase::Rendering, left),
+            (Phase::Slave, left),
+            (Phase::Paused, None),
+            (Phase::Halted(indigo_render::HaltReason::Stopped), None),
+        ] {
+            state.phase = phase;
+            assert_eq!(state.time_left(), expected, "{:?}", state.phase);
+        }
     }
 
     #[test]

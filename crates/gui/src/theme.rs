@@ -7,19 +7,28 @@ use eframe::egui::{Color32, Context, CornerRadius, Theme, Visuals, vec2};
 pub const TOOL_BAR: f32 = 40.0;
 /// Width of the panel on the right.
 pub const SIDE: f32 = 324.0;
-/// Height of the panel with log and findings.
+/// Height of the panel with log and findings at first.
 pub const FOOT: f32 = 152.0;
+/// The least and the greatest height that it can be given.
+pub const FOOT_HEIGHTS: std::ops::RangeInclusive<f32> = 90.0..=420.0;
 /// Height of the line with the state, and of that with the pixel under the pointer.
 pub const LINE: f32 = 30.0;
 /// Width of the names of controls.
-pub const NAME: f32 = 112.0;
+pub const NAME: f32 = 130.0;
+/// Width of the controls behind them: what the panel leaves, less its margins of 8 points and the space between the two.
+pub const CONTROL: f32 = SIDE - 16.0 - NAME - SPACE;
+/// Width of numbers among them.
+pub const VALUE: f32 = 64.0;
+/// The space between what stands side by side.
+const SPACE: f32 = 8.0;
 
 /// Sets both themes.
 pub fn set(context: &Context) {
     context.all_styles_mut(|style| {
-        style.spacing.item_spacing = vec2(8.0, 6.0);
+        style.spacing.item_spacing = vec2(SPACE, 6.0);
         style.spacing.button_padding = vec2(8.0, 4.0);
-        style.spacing.slider_width = 100.0;
+        // With its number as wide as any other control.
+        style.spacing.slider_width = CONTROL - SPACE - VALUE;
         style.spacing.interact_size.y = 22.0;
         // Texts that are read are not taken for something to be dragged.
         style.interaction.selectable_labels = false;

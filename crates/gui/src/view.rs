@@ -82,6 +82,27 @@ impl View {
         is_inside.then_some([pixel.x as u32, pixel.y as u32])
     }
 
+    /// The pixel of the picture that is nearest to a point of the screen.
+    pub fn nearest(&self, at: Pos2, area: Rect, size: Vec2) -> [u32; 2] {
+        let pixel = (at - self.place(area, size).min) / self.zoom(area, size);
+        let last = (size - Vec2::splat(1.0)).max(Vec2::ZERO);
+        let pixel = pixel.floor().clamp(Vec2::ZERO, last);
+        [pixel.x as u32, pixel.y as u32]
+    }
+
+    /// Moves the picture no further than is needed for a pixel to be seen.
+    pub fn reveal(&mut self, [x, y]: [u32; 2], area: Rect, size: Vec2) {
+        // Where it fits all of it is seen, but for rounding.
+        if self.is_fitting() {
+            return;
+        }
+        let pixel = self.place_of([[x, y], [x + 1, y + 1]], area, size);
+        let by = (area.min - pixel.min).max(Vec2::ZERO) + (area.max - pixel.max).min(Vec2::ZERO);
+        if by != Vec2::ZERO {
+            self.pan(by, area, size);
+        }
+    }
+
     /// The rectangle of pixels between two points of the screen: first column and row, and those after the last; `None`
     /// where it would be empty.
     pub fn region(&self, ends: [Pos2; 2], area: Rect, size: Vec2) -> Option<[[u32; 2]; 2]> {
@@ -147,6 +168,20 @@ mod tests {
             Some(0),
             "some of it stays in sight"
         );
+    }
+
+    #[test]
+    fn a_pixel_is_brought_into_sight_by_the_shortest_way() {
+        let mut view = View::default();
+        let before = view;
+        view.reveal([199, 99], area(), SIZE);
+        assert_eq!(view, before, "it is in sight");
+        assert_eq!(view.nearest(pos2(1e6, -1e6), area(), SIZE), [199, 0]);
+        view.zoom_at(8.0, area().center(), area(), SIZE);
+        view.reveal([199, 50], area(), SIZE);
+        let seen = view.place_of([[199, 50], [200, 51]], area(), SIZE);
+        assert!((seen.right() - area().right()).abs() < 1e-3, "{seen:?}");
+        assert!(area().expand(1e-3).contains_rect(seen));
     }
 
     #[test]

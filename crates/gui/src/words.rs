@@ -1,8 +1,11 @@
-//! Every word that the window says, in one list, so that it can be read through at once: here what is always the same, in
-//! `sentences` what depends on something.
+//! Every word that the window says, in one list, so that it can be read through at once. The list has three parts: here what is
+//! always the same, in `sentences` what depends on what is shown, in `files` what is said of files. No other module holds words
+//! for people; what console and window both say is in `indigo_front`.
 
+mod files;
 mod sentences;
 
+pub use files::*;
 pub use sentences::*;
 
 /// Declares constants that are texts.
@@ -13,8 +16,8 @@ macro_rules! texts {
 // The program.
 texts! {
     PROGRAM = "Indigo";
-    HELP = "The window takes the options of a render; what else they do is done by indigo_console.\n\n";
-    DEAF_DISPLAY = "the display that DISPLAY or WAYLAND_DISPLAY names cannot be opened: name one that can be, or render with indigo_console";
+    HELP = "The window takes the options of a render; everything else is done by indigo_console.\n\n";
+    DEAF_DISPLAY = "the display named by DISPLAY or WAYLAND_DISPLAY cannot be opened: name one that can be, or render with indigo_console";
     NO_DISPLAY = "there is no display to open a window on: set DISPLAY or WAYLAND_DISPLAY, or render with indigo_console";
 }
 
@@ -37,7 +40,6 @@ texts! {
     CANCEL = "Cancel";
     STOP = "Stop";
     STOP_HINT = "End the render and save its files; the film is kept, so that it can be continued";
-    START_OR_PAUSE = "Start, pause or continue";
     FIT = "Fit";
     FIT_HINT = "Show the whole picture";
     ONE_TO_ONE = "1:1";
@@ -50,21 +52,30 @@ texts! {
     REGION_HINT = "Drag a rectangle: only that part is rendered, from the start";
     COMPARE = "Compare";
     COMPARE_WITH = "With a saved picture…";
-    TAB_PICTURE = "Show how the picture is developed";
-    TAB_RENDER = "Show how the scene is rendered";
-    TAB_SCENE = "Show what the scene contains";
-    TAB_QUEUE = "Show the queue";
-    TAB_NETWORK = "Show network rendering";
     THEME_SHORT = "Theme";
     THEME = "Switch between dark and light";
     KEYS = "Keys";
+}
+
+// The list of keys.
+texts! {
+    TABS_HINT = "Show Picture, Render, Scene, Queue or Network";
+    START_OR_PAUSE = "Start, pause or continue";
+    DARKER_BRIGHTER = "Half a stop darker, brighter";
+    ZOOM_IN = "Zoom in";
+    ZOOM_OUT = "Zoom out";
+    CROSS_HINT = "Show or hide a cross that reads a pixel's values";
+    PAN_KEY_HINT = "Put away the cross, the grey point or the region";
+    LAYOUT_HINT = "Compare side by side, split by a line, or not";
+    LINE_HINT = "Move the line of a comparison";
     KEYS_HINT = "Show the keyboard shortcuts";
+    STEP_HINT = "Move the cross by a pixel, or the picture";
+    FAR_STEP_HINT = "Move it further";
+    TAKE_HINT = "Take the grey point, or a corner of the region, at the cross";
     WHEEL = "Wheel";
-    WHEEL_HINT = "Zoom at the pointer; the middle button pans, the right one moves the line of a comparison";
+    WHEEL_HINT = "Zoom at the pointer; the right button moves the line of a comparison";
     TAB_KEY = "Tab";
-    TAB_HINT = "Go to the next control; arrow keys change it, Space or Enter presses it";
-    BRIGHTER = "Half a stop brighter";
-    DARKER = "Half a stop darker";
+    TAB_HINT = "Go to the next control; arrows change it, Space or Enter presses it, Esc leaves it";
 }
 
 // Development.
@@ -82,14 +93,14 @@ texts! {
     ISO = "Film ISO";
     RESPONSE = "Response";
     CURVE_HINT = "The response: brightness against exposure, for red, green and blue";
-    NO_CURVE = "these are not response curves";
+    NO_CURVE = "this file holds no response curves";
     WHITE_BALANCE = "White balance";
     WHITE = "White";
     PICK_GREY = "Pick a grey point";
     NO_GREY = "this point is too dark to have a colour";
     OPTICS = "Optics";
     DIFFRACTION = "Aperture diffraction";
-    NO_DIFFRACTION = "This scene has no diffraction that is added after rendering";
+    NO_DIFFRACTION = "This scene has no diffraction, or it is part of the render already";
     BLOOM = "Bloom";
     BLOOM_WEIGHT = "Weight";
     BLOOM_RADIUS = "Radius";
@@ -100,17 +111,19 @@ texts! {
 // The render.
 texts! {
     NOTHING_TO_RENDER = "No scene is open";
-    HALT = "Halt";
-    HALT_SPP = "at samples per pixel";
-    HALT_TIME = "after a time";
-    HALT_ERROR = "at a relative error";
-    HALT_ERROR_HINT = "Needs the memory of two more films";
+    HALT = "Halt at";
+    HALT_SPP = "Samples per pixel";
+    HALT_TIME = "Time";
+    HALT_ERROR = "Relative error";
+    HALT_ERROR_HINT = "Takes as much memory as two more films";
+    SECONDS = " s";
+    PER_CENT = " %";
     MACHINE = "This machine";
     THREADS = "Threads";
     LIGHT_TRANSPORT = "Light transport";
     TECHNIQUE = "Technique";
     SAMPLING = "Sampling";
-    APPLY_MODE = "Restart with this mode";
+    APPLY_MODE = "Reload with this mode";
     APPLY_MODE_HINT = "Samples of different modes cannot be mixed, so the film starts over";
     DRAW_REGION = "Draw…";
     WHOLE_PICTURE = "Whole picture";
@@ -120,6 +133,7 @@ texts! {
 
 // The scene.
 texts! {
+    OVERVIEW = "Overview";
     SCENE = "Scene";
     FILE = "File";
     SIZE = "Size";
@@ -141,17 +155,18 @@ texts! {
     UNKNOWN = "unknown";
     NOT_BEGUN = "Nothing has been rendered yet";
     MEMORY = "Memory";
-    DEVELOPING = "Development";
+    DEVELOPING = "Development time";
 }
 
 // The scene's file.
 texts! {
     WRITE_SETTINGS = "Write to the scene file";
     WRITE_SETTINGS_HINT = "Save these settings in the scene file, keeping its comments and layout";
+    NOTHING_TO_WRITE = "The scene file has these settings already";
     ELEMENTS = "Elements";
     READ_ELEMENTS = "Show the elements";
     READ_ELEMENTS_HINT = "Read them from the scene files, to change texts, numbers and colours";
-    SAVE_CHANGES = "Save and restart";
+    SAVE_CHANGES = "Save and reload";
     SAVE_CHANGES_HINT = "Write the changes to the scene files, keeping their comments and layout, and load the scene again";
     DISCARD = "Discard";
     LONG_TEXT = "too long to edit here";
@@ -160,7 +175,7 @@ texts! {
 // The queue.
 texts! {
     QUEUE = "Scenes to render one after another";
-    QUEUE_HINT = "Each is rendered until its own halting condition is met, and saved.";
+    QUEUE_HINT = "Each is rendered until its own halting condition is met, then saved.";
     QUEUE_HALT = "Otherwise halt at";
     QUEUE_HALT_HINT = "Samples per pixel for scenes without a halting condition";
     QUEUE_START = "Start the queue";
@@ -173,6 +188,7 @@ texts! {
 // Rendering on many machines.
 texts! {
     NETWORK = "Network rendering";
+    PART_IS_FIXED = "To change this, stop the render first.";
     CONNECTION = "Connection";
     MASTER = "Host";
     MASTER_HINT = "The master's machine, with its port unless that is 7777: studio or studio:7000";
@@ -211,13 +227,18 @@ texts! {
     BACK = "Back to the list";
 }
 
-// Closing and files.
+// Questions, and files.
 texts! {
     CLOSE_HEAD = "A scene is being rendered";
     CLOSE_TEXT = "What should happen to the render when the window closes?";
     CLOSE_SAVE = "Save and close";
     CLOSE_DISCARD = "Close without saving";
     CLOSE_NOT = "Keep rendering";
+    UNSAVED_HEAD = "Changes have not been saved";
+    UNSAVED_SAVE = "Save";
+    UNSAVED_DISCARD = "Discard";
+    NO_DIALOG = "This desktop offers no dialog for files. Path:";
+    NO_PATH = "type the path of a file";
     SCENES_AND_FILMS = "Scenes and films";
     SCENES = "Scenes";
     PICTURES = "Pictures";

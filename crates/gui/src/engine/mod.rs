@@ -7,6 +7,8 @@ mod load;
 mod tests;
 mod worker;
 
+#[cfg(test)]
+pub use develop::BINS;
 pub use develop::{Desk, Histogram, Shown};
 pub use load::LoadedFacts;
 

@@ -3,6 +3,7 @@
 use super::{Command, Engine, Phase, Request, Update, load};
 use crate::part::Part;
 use crate::recent::Recent;
+use crate::scene_file::SceneFile;
 use crate::state::State;
 use crate::words;
 use eframe::egui::Context;
@@ -186,6 +187,10 @@ fn what_is_loaded_once_more_is_as_it_was_unless_its_files_changed() {
     assert_eq!(state.path, Some(path("a.igs")));
     let scale = |state: &State| state.controls.as_ref().map(|controls| controls.scale);
     assert_eq!(scale(&state), Some(1.0));
+    for (phase, starts) in [(Phase::Rendering, true), (Phase::Paused, false), (Phase::Ready, false)] {
+        state.phase = phase;
+        assert_eq!(state.request_again().map(|request| request.starts), Some(starts), "{:?}", state.phase);
+    }
     state.brighten(1.0);
     let work = state.work.as_mut().expect("a scene");
     work.halt_spp = (true, 6);
@@ -194,6 +199,14 @@ fn what_is_loaded_once_more_is_as_it_was_unless_its_files_changed() {
     assert!(again.arguments.settings.is_empty(), "no mode was chosen");
     load_into(&mut state, &engine, again);
     assert_eq!((scale(&state), state.work.map(|work| work.halt_spp)), (Some(2.0), Some((true, 6))));
+
+    // Changed elements are kept while only another part of the picture is rendered.
+    let mut file = SceneFile::read(&path("a.igs")).expect("the scene");
+    file.changes.insert(vec![0, 0], "9".to_owned());
+    state.file = Some(file);
+    let facts = state.facts.clone().expect("a scene");
+    state.take(Update::Scene(Box::new(facts), None));
+    assert!(state.has_unsaved());
 
     // Another scene fails, and is what is tried again.
     let request = state.request(&path("broken.igs"), false);
@@ -215,5 +228,6 @@ fn what_is_loaded_once_more_is_as_it_was_unless_its_files_changed() {
     load_into(&mut state, &engine, again);
     assert_eq!((scale(&state), state.work.map(|work| work.halt_spp)), (Some(5.0), Some((true, 9))));
     assert!(state.mode.is_some_and(|mode| mode.bidirectional));
+    assert!(state.file.is_none(), "its elements are others");
     std::fs::remove_dir_all(&folder).expect("our own files");
 }

@@ -7,6 +7,8 @@ use eframe::egui::{Button, RichText, ScrollArea, Ui};
 
 /// See the module.
 pub fn foot(ui: &mut Ui, state: &mut State) {
+    // As high as it was made, however little it holds.
+    ui.take_available_space();
     ui.horizontal(|ui| {
         ui.selectable_value(&mut state.foot, Foot::Log, words::LOG);
         ui.selectable_value(&mut state.foot, Foot::Findings, words::findings(state.findings.len()));

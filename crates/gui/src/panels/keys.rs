@@ -1,155 +1,151 @@
-//! Keys, and the question before the window closes.
+//! Keys, and the list of them.
 
+use super::picture::picture_id;
 use crate::action::{Action, Ask};
 use crate::engine::Command;
-use crate::state::{State, Tab, Tool};
+use crate::state::{Gesture, State, Tab, Tool};
 use crate::words;
-use eframe::egui::{Context, Grid, Id, Key, KeyboardShortcut, Modal, Modifiers, Popup, Window};
+use eframe::egui::{Context, Grid, Key, KeyboardShortcut, Memory, Modifiers, Popup, Ui, Window};
 use indigo_render::output::OneFile;
 
-/// What a key does.
-type Effect = fn(&mut State);
+/// What the keys of a row do, of which the second argument says the one that was pressed.
+type Effect = fn(&mut State, usize);
 
-/// All keys that work wherever the focus is, with what they do.
-const COMMANDS: &[(Modifiers, Key, &str, Effect)] = &[
-    (Modifiers::COMMAND, Key::O, words::OPEN_FILE, |state| state.act(Action::Ask(Ask::Open))),
+/// Keys that do alike: what is held besides, the keys, what they do in words, and the effect.
+type Row = (Modifiers, &'static [Key], &'static str, Effect);
+
+/// How far `,` and `.` move the line of a comparison, as a part of the width.
+const LINE_STEP: f32 = 0.02;
+
+const ARROWS: &[Key] = &[Key::ArrowLeft, Key::ArrowUp, Key::ArrowRight, Key::ArrowDown];
+
+/// All keys that work wherever the focus is.
+const COMMANDS: &[Row] = &[
+    (Modifiers::COMMAND, &[Key::O], words::OPEN_FILE, |state, _| state.act(Action::Ask(Ask::Open))),
     // Before the same key without Shift, which would take it.
-    (Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::S, words::SAVE_PICTURE, |state| {
-        if state.facts.is_some() {
+    (Modifiers::COMMAND.plus(Modifiers::SHIFT), &[Key::S], words::SAVE_PICTURE, |state, _| {
+        if state.picture.is_some() {
             state.act(Action::Ask(Ask::Save(OneFile::Picture)));
         }
     }),
-    (Modifiers::COMMAND, Key::S, words::SAVE_NOW, |state| {
+    (Modifiers::COMMAND, &[Key::S], words::SAVE_NOW, |state, _| {
         if state.has_growing_film() {
             state.command(Command::SaveAll);
         }
     }),
-    (Modifiers::COMMAND, Key::Num1, words::TAB_PICTURE, |state| state.tab = Tab::Picture),
-    (Modifiers::COMMAND, Key::Num2, words::TAB_RENDER, |state| state.tab = Tab::Render),
-    (Modifiers::COMMAND, Key::Num3, words::TAB_SCENE, |state| state.tab = Tab::Scene),
-    (Modifiers::COMMAND, Key::Num4, words::TAB_QUEUE, |state| state.tab = Tab::Queue),
-    (Modifiers::COMMAND, Key::Num5, words::TAB_NETWORK, |state| state.tab = Tab::Network),
-    (Modifiers::COMMAND, Key::R, words::RELOAD, |state| {
+    (Modifiers::COMMAND, &[Key::R], words::RELOAD, |state, _| {
         if state.wanted.is_some() {
             state.act(Action::Restart);
         }
     }),
+    (
+        Modifiers::COMMAND,
+        &[Key::Num1, Key::Num2, Key::Num3, Key::Num4, Key::Num5],
+        words::TABS_HINT,
+        |state, index| state.tab = Tab::ALL[index],
+    ),
 ];
 
 /// All keys that work unless something is being typed.
-const PLAIN: &[(Modifiers, Key, &str, Effect)] = &[
-    (Modifiers::NONE, Key::P, words::START_OR_PAUSE, State::start_or_pause),
-    (Modifiers::NONE, Key::F, words::FIT_HINT, |state| state.view.fit()),
-    (Modifiers::NONE, Key::Num1, words::ONE_TO_ONE_HINT, |state| state.wants_one_to_one = true),
-    (Modifiers::NONE, Key::CloseBracket, words::BRIGHTER, |state| state.brighten(0.5)),
-    (Modifiers::NONE, Key::OpenBracket, words::DARKER, |state| state.brighten(-0.5)),
-    (Modifiers::NONE, Key::Backspace, words::RESET_HINT, State::reset_controls),
-    (Modifiers::NONE, Key::G, words::GREY_HINT, |state| state.tool = Tool::Grey),
-    (Modifiers::NONE, Key::R, words::REGION_HINT, |state| state.tool = Tool::Region),
-    (Modifiers::NONE, Key::Escape, words::PAN_HINT, |state| {
-        (state.tool, state.drag_from) = (Tool::Pan, None);
+const PLAIN: &[Row] = &[
+    (Modifiers::NONE, &[Key::P], words::START_OR_PAUSE, |state, _| state.start_or_pause()),
+    (Modifiers::NONE, &[Key::OpenBracket, Key::CloseBracket], words::DARKER_BRIGHTER, |state, index| {
+        state.brighten(if index == 0 { -0.5 } else { 0.5 });
     }),
-    (Modifiers::NONE, Key::F1, words::KEYS_HINT, |state| state.shows_keys = !state.shows_keys),
-    (Modifiers::NONE, Key::F2, words::THEME, |state| state.wants_other_theme = true),
+    (Modifiers::NONE, &[Key::Backspace], words::RESET_HINT, |state, _| state.reset_controls()),
+    (Modifiers::NONE, &[Key::F], words::FIT_HINT, |state, _| state.view.fit()),
+    (Modifiers::NONE, &[Key::Num1], words::ONE_TO_ONE_HINT, |state, _| state.gesture(Gesture::OneToOne)),
+    (Modifiers::NONE, &[Key::Plus, Key::Equals], words::ZOOM_IN, |state, _| state.gesture(Gesture::ZoomIn)),
+    (Modifiers::NONE, &[Key::Minus], words::ZOOM_OUT, |state, _| state.gesture(Gesture::ZoomOut)),
+    (Modifiers::NONE, &[Key::I], words::CROSS_HINT, |state, _| state.gesture(Gesture::Cross)),
+    (Modifiers::NONE, &[Key::G], words::GREY_HINT, |state, _| state.set_tool(Tool::Grey)),
+    (Modifiers::NONE, &[Key::R], words::REGION_HINT, |state, _| state.set_tool(Tool::Region)),
+    (Modifiers::NONE, &[Key::Escape], words::PAN_KEY_HINT, |state, _| state.leave_tools()),
+    (Modifiers::NONE, &[Key::C], words::LAYOUT_HINT, |state, _| state.next_layout()),
+    (Modifiers::NONE, &[Key::Comma, Key::Period], words::LINE_HINT, |state, index| {
+        state.move_line(if index == 0 { -LINE_STEP } else { LINE_STEP });
+    }),
+    (Modifiers::NONE, &[Key::F1], words::KEYS_HINT, |state, _| state.shows_keys = !state.shows_keys),
+    (Modifiers::NONE, &[Key::F2], words::THEME, |state, _| state.wants_other_theme = true),
 ];
+
+/// All keys that work where no other control has the focus, to which they mean something.
+const IN_PICTURE: &[Row] = &[
+    // Before the same keys without Shift, which would take them.
+    (Modifiers::SHIFT, ARROWS, words::FAR_STEP_HINT, |state, index| step(state, index, true)),
+    (Modifiers::NONE, ARROWS, words::STEP_HINT, |state, index| step(state, index, false)),
+    (Modifiers::NONE, &[Key::Enter], words::TAKE_HINT, |state, _| state.gesture(Gesture::Take)),
+];
+
+/// One of the arrows.
+fn step(state: &mut State, arrow: usize, is_far: bool) {
+    let to = [[-1, 0], [0, -1], [1, 0], [0, 1]][arrow];
+    state.gesture(Gesture::Step { to, is_far });
+}
 
 /// Does what keys ask for, and shows the list of them.
 pub fn keys(context: &Context, state: &mut State) {
-    // The question before closing and open lists take all keys: Escape closes them.
-    if state.asks_to_close || Popup::is_any_open(context) {
+    // A question and open lists take all keys: Escape closes them.
+    if state.question.is_some() || Popup::is_any_open(context) {
         return;
     }
-    let is_typing = context.text_edit_focused();
-    for (modifiers, key, _, effect) in COMMANDS.iter().chain(PLAIN.iter().filter(|_| !is_typing)) {
-        // On a slow machine a key may have been pressed twice since the last frame.
-        for _ in 0..context.input_mut(|input| input.count_and_consume_key(*modifiers, *key)) {
-            effect(state);
-        }
+    let focused = context.memory(Memory::focused);
+    obey(context, state, COMMANDS);
+    if !context.text_edit_focused() {
+        obey(context, state, PLAIN);
+    }
+    if focused.is_none_or(|id| id == picture_id()) {
+        obey(context, state, IN_PICTURE);
     }
     let mut is_open = state.shows_keys;
-    Window::new(words::KEYS).open(&mut is_open).resizable(false).collapsible(false).show(context, |ui| {
-        Grid::new("keys").num_columns(2).spacing([24.0, 6.0]).show(ui, |ui| {
-            for (modifiers, key, what, _) in COMMANDS.iter().chain(PLAIN) {
-                let shortcut = KeyboardShortcut::new(*modifiers, *key);
-                // As it is written on the key.
-                let is_plain = modifiers.is_none();
-                let name = if is_plain {
-                    key.symbol_or_name().to_owned()
-                } else {
-                    ui.ctx().format_shortcut(&shortcut)
-                };
-                ui.monospace(name);
-                ui.label(*what);
-                ui.end_row();
-            }
-            ui.monospace(words::WHEEL);
-            ui.label(words::WHEEL_HINT);
-            ui.end_row();
-            ui.monospace(words::TAB_KEY);
-            ui.label(words::TAB_HINT);
-            ui.end_row();
-        });
-    });
+    let window = Window::new(words::KEYS).open(&mut is_open).resizable(false).collapsible(false);
+    window.show(context, list);
     state.shows_keys = is_open && state.shows_keys;
 }
 
-/// Asks what becomes of a render when the window closes.
-pub fn ask_to_close(context: &Context, state: &mut State) {
-    if !state.asks_to_close {
-        return;
+fn obey(context: &Context, state: &mut State, rows: &[Row]) {
+    for (modifiers, keys, _, effect) in rows {
+        for (index, key) in keys.iter().enumerate() {
+            // On a slow machine a key may have been pressed twice since the last frame.
+            for _ in 0..context.input_mut(|input| input.count_and_consume_key(*modifiers, *key)) {
+                effect(state, index);
+            }
+        }
     }
-    let modal = Modal::new(Id::unique("close")).show(context, |ui| {
-        ui.set_width(380.0);
-        ui.heading(words::CLOSE_HEAD);
-        ui.add_space(6.0);
-        ui.label(words::CLOSE_TEXT);
-        ui.add_space(10.0);
-        ui.horizontal(|ui| {
-            if ui.button(words::CLOSE_SAVE).clicked() {
-                state.act(Action::Command(Command::Quit { saves: true }));
-                state.asks_to_close = false;
-            }
-            if ui.button(words::CLOSE_DISCARD).clicked() {
-                state.act(Action::Command(Command::Quit { saves: false }));
-                state.asks_to_close = false;
-            }
-            if ui.button(words::CLOSE_NOT).clicked() {
-                state.asks_to_close = false;
-            }
-        });
+}
+
+fn list(ui: &mut Ui) {
+    Grid::new("keys").num_columns(2).spacing([24.0, 4.0]).show(ui, |ui| {
+        for (modifiers, keys, what, _) in COMMANDS.iter().chain(PLAIN).chain(IN_PICTURE) {
+            ui.monospace(names(ui, *modifiers, keys));
+            ui.label(*what);
+            ui.end_row();
+        }
+        for (name, what) in [(words::WHEEL, words::WHEEL_HINT), (words::TAB_KEY, words::TAB_HINT)] {
+            ui.monospace(name);
+            ui.label(what);
+            ui.end_row();
+        }
     });
-    if modal.should_close() {
-        state.asks_to_close = false;
-    }
+}
+
+/// Keys as they are written on the keyboard, what is held besides only once.
+fn names(ui: &Ui, modifiers: Modifiers, keys: &[Key]) -> String {
+    let name = |(index, key): (usize, &Key)| match (index, modifiers.is_none()) {
+        (0, false) => ui.ctx().format_shortcut(&KeyboardShortcut::new(modifiers, *key)),
+        _ => key.symbol_or_name().to_owned(),
+    };
+    keys.iter().enumerate().map(name).collect::<Vec<_>>().join(" ")
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::recent::Recent;
-    use egui_kittest::Harness;
-    use indigo_front::flags::Arguments;
-
-    #[test]
-    fn escape_answers_the_question_and_only_then_ends_what_the_pointer_does() {
-        let mut state = State::new(Arguments::default(), Recent::default());
-        (state.asks_to_close, state.tool) = (true, Tool::Region);
-        let ui = |ui: &mut eframe::egui::Ui, state: &mut State| {
-            keys(ui.ctx(), state);
-            ask_to_close(ui.ctx(), state);
-        };
-        let mut harness = Harness::new_ui_state(ui, state);
-        for (asks_to_close, tool) in [(false, Tool::Region), (false, Tool::Pan)] {
-            harness.key_press(Key::Escape);
-            harness.run();
-            let state = harness.state();
-            assert_eq!((state.asks_to_close, state.tool), (asks_to_close, tool));
-        }
-    }
 
     #[test]
     fn no_key_has_two_meanings() {
-        let all: Vec<_> = COMMANDS.iter().chain(PLAIN).map(|(modifiers, key, ..)| (modifiers, key)).collect();
+        let rows = COMMANDS.iter().chain(PLAIN).chain(IN_PICTURE);
+        let all: Vec<_> = rows.flat_map(|(held, keys, ..)| keys.iter().map(move |key| (held, key))).collect();
         for (i, one) in all.iter().enumerate() {
             assert!(!all[..i].contains(one), "{one:?}");
         }

@@ -1,9 +1,11 @@
 //! The parts of the window, a file each.
 
+mod cross;
 mod foot;
 mod keys;
 mod network;
 mod picture;
+mod questions;
 mod queue;
 mod scene;
 mod slaves;
@@ -13,8 +15,9 @@ mod toolbar;
 mod tree;
 mod work;
 
-pub use keys::{ask_to_close, keys};
+pub use keys::keys;
 pub use picture::{Textures, picture};
+pub use questions::questions;
 pub use status::status;
 pub use toolbar::toolbar;
 
@@ -35,12 +38,7 @@ pub fn side(ui: &mut Ui, state: &mut State) {
     ScrollArea::vertical().id_salt(("side", state.tab)).auto_shrink(false).show(ui, |ui| match state.tab {
         Tab::Picture => tone::tone(ui, state),
         Tab::Render => work::work(ui, state),
-        Tab::Scene => {
-            scene::scene(ui, state);
-            if state.facts.is_some() {
-                tree::tree(ui, state);
-            }
-        }
+        Tab::Scene => scene::scene(ui, state),
         Tab::Queue => queue::queue(ui, state),
         Tab::Network => network::network(ui, state),
     });
@@ -54,20 +52,24 @@ pub fn foot(ui: &mut Ui, state: &mut State) {
 /// A control with its name in front.
 fn row(ui: &mut Ui, name: &str, add: impl FnOnce(&mut Ui) -> Response) -> Response {
     ui.horizontal(|ui| {
-        let height = ui.spacing().interact_size.y;
-        let label = ui.allocate_ui_with_layout(
-            vec2(theme::NAME, height),
-            Layout::left_to_right(Align::Center),
-            |ui| {
-                ui.set_min_width(theme::NAME);
-                ui.label(name).id
-            },
-        );
+        let label = named(ui, |ui| ui.label(name).id);
         let control = add(ui);
         // What has words of its own keeps them.
-        if name.is_empty() { control } else { control.labelled_by(label.inner) }
+        if name.is_empty() { control } else { control.labelled_by(label) }
     })
     .inner
+}
+
+/// The first column of a row, with what names the second.
+fn named<R>(ui: &mut Ui, add: impl FnOnce(&mut Ui) -> R) -> R {
+    let size = vec2(theme::NAME, ui.spacing().interact_size.y);
+    let name = ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
+        ui.set_min_width(theme::NAME);
+        add(ui)
+    });
+    // All numbers are of one width.
+    ui.spacing_mut().interact_size.x = theme::VALUE;
+    name.inner
 }
 
 /// The head of a group of controls.

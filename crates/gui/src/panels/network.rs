@@ -14,6 +14,9 @@ use indigo_scene::schema::settings::MOST_THREADS;
 pub fn network(ui: &mut Ui, state: &mut State) {
     head(ui, words::NETWORK);
     let can_change = !state.is_under_way();
+    if !can_change {
+        ui.weak(words::PART_IS_FIXED);
+    }
     ui.add_enabled_ui(can_change, |ui| {
         for role in Part::ROLES {
             let choice = RadioButton::new(state.part.role == role, words::role(role));
@@ -95,6 +98,19 @@ mod tests {
     use egui_kittest::Harness;
     use egui_kittest::kittest::Queryable as _;
     use indigo_front::flags::Arguments;
+
+    #[test]
+    fn why_nothing_can_be_changed_is_said() {
+        let mut state = State::new(Arguments::default(), Recent::default());
+        state.phase = Phase::Paused;
+        let mut harness =
+            Harness::builder().with_size(vec2(theme::SIDE, 600.0)).build_ui_state(network, state);
+        harness.run();
+        assert!(harness.query_by_label(words::PART_IS_FIXED).is_some());
+        harness.state_mut().phase = Phase::Ready;
+        harness.run();
+        assert!(harness.query_by_label(words::PART_IS_FIXED).is_none());
+    }
 
     #[test]
     fn a_slave_is_started_by_the_names_of_its_controls() {

@@ -1,12 +1,12 @@
 //! The picture, what the pointer does in it, and the pixel under it.
 
+use super::cross;
 use crate::comparison::Layout;
-use crate::engine::Command;
 use crate::state::{State, Tool};
 use crate::{theme, words};
 use eframe::egui::{
-    Color32, CursorIcon, Painter, PointerButton, Rect, Response, RichText, Role, Sense, Stroke, StrokeKind,
-    TextureHandle, Ui, Vec2, WidgetInfo, pos2, vec2,
+    Color32, CursorIcon, EventFilter, Id, Painter, PointerButton, Rect, Response, RichText, Role, Sense,
+    Stroke, StrokeKind, TextureHandle, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
 /// How much a step of the wheel zooms.
@@ -21,14 +21,25 @@ pub struct Textures {
     pub other: Option<TextureHandle>,
 }
 
+/// By which the focus is told.
+pub fn picture_id() -> Id {
+    Id::unique("picture")
+}
+
 /// See the module.
 pub fn picture(ui: &mut Ui, state: &mut State, textures: &Textures) {
     let whole = ui.available_rect_before_wrap();
     let (area, line) = whole.split_top_bottom_at_y(whole.bottom() - theme::LINE);
     ui.painter().rect_filled(area, 0.0, theme::surround(ui.visuals().dark_mode));
-    let response = ui.allocate_rect(area, Sense::click_and_drag());
+    ui.advance_cursor_after_rect(whole);
+    let response = ui.interact(area, picture_id(), Sense::click_and_drag());
     let name = state.path.clone().unwrap_or_else(|| words::NOTHING_OPEN.to_owned());
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, words::picture_of(&name)));
+    if response.has_focus() {
+        // Arrows are for the picture, and do not lead to another control.
+        let arrows = EventFilter { horizontal_arrows: true, vertical_arrows: true, ..EventFilter::default() };
+        ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
+    }
     match &textures.render {
         Some(render) => {
             let size = render.size_vec2();
@@ -36,7 +47,13 @@ pub fn picture(ui: &mut Ui, state: &mut State, textures: &Textures) {
             interact(ui, state, &response, panes.render, size);
             draw(ui, state, &panes, size, render, textures.other.as_ref());
         }
-        None => welcome(ui, area, state),
+        None => {
+            state.gestures.clear();
+            welcome(ui, area, state);
+        }
+    }
+    if response.has_focus() {
+        ui.painter().rect_stroke(area, 0.0, ui.visuals().selection.stroke, StrokeKind::Inside);
     }
     let mut line = ui.new_child(eframe::egui::UiBuilder::new().max_rect(line.shrink2(vec2(8.0, 0.0))));
     inspector(&mut line, state);
@@ -70,12 +87,13 @@ impl Panes {
 }
 
 fn interact(ui: &Ui, state: &mut State, response: &Response, area: Rect, size: Vec2) {
-    if state.wants_one_to_one {
-        state.wants_one_to_one = false;
-        state.view.set_zoom(1.0 / ui.ctx().pixels_per_point(), area, size);
-    }
     let pointer = response.hover_pos();
     state.hovered = pointer.and_then(|at| state.view.pixel(at, area, size));
+    cross::obey(state, area, size, 1.0 / ui.ctx().pixels_per_point());
+    // What was moved last points.
+    if state.hovered.is_some() && ui.input(|input| input.pointer.delta() != Vec2::ZERO) {
+        state.cross = None;
+    }
     if let Some(at) = pointer {
         let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
         let factor = (scroll * ZOOM_PER_POINT).exp() * pinch;
@@ -115,16 +133,14 @@ fn draw_region(state: &mut State, response: &Response, area: Rect, size: Vec2) {
     if response.drag_started_by(PointerButton::Primary) {
         // Not where the pointer was when it had moved so far that this is no click.
         state.drag_from = response.ctx.input(|input| input.pointer.press_origin());
+        state.corner = None;
     }
     if !response.drag_stopped() {
         return;
     }
     let (Some(from), Some(to)) = (state.drag_from.take(), response.interact_pointer_pos()) else { return };
-    if let (Some(region), Some(work)) = (state.view.region([from, to], area, size), state.work)
-        && state.facts.is_some()
-    {
-        state.tool = Tool::Pan;
-        state.command(Command::SetRegion(Some(region), work));
+    if let Some(region) = state.view.region([from, to], area, size) {
+        state.set_region(region);
     }
 }
 
@@ -155,6 +171,7 @@ fn draw(
     if let (Some(from), Some(to)) = (state.drag_from, ui.input(|input| input.pointer.latest_pos())) {
         frame(Rect::from_two_pos(from, to), Stroke::new(1.5, Color32::WHITE));
     }
+    cross::draw(&clipped(panes.render), state, panes.render, size);
 }
 
 fn image(painter: &Painter, texture: &TextureHandle, place: Rect) {
@@ -169,7 +186,7 @@ fn welcome(ui: &Ui, area: Rect, state: &State) {
     ui.painter().text(area.center(), eframe::egui::Align2::CENTER_CENTER, text, font, colour);
 }
 
-/// What is known of the pixel under the pointer.
+/// What is known of the pixel that is pointed at.
 fn inspector(ui: &mut Ui, state: &State) {
     let zoom = state.picture.is_some().then(|| words::view(state.view.is_fitting()));
     ui.horizontal_centered(|ui| {
@@ -179,7 +196,7 @@ fn inspector(ui: &mut Ui, state: &State) {
                 ui.label(RichText::new(text).monospace().size(11.0));
             });
         };
-        let pixel = state.hovered.zip(state.picture.as_ref());
+        let pixel = state.pointed().zip(state.picture.as_ref());
         let Some(([x, y], picture)) = pixel else {
             cell(400.0, zoom.unwrap_or_default());
             return;

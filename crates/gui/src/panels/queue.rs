@@ -5,7 +5,7 @@ use crate::action::{Action, Ask};
 use crate::queue::Turn;
 use crate::state::State;
 use crate::words;
-use eframe::egui::{Button, DragValue, Ui};
+use eframe::egui::{Button, DragValue, Role, Ui, WidgetInfo};
 
 /// See the module.
 pub fn queue(ui: &mut Ui, state: &mut State) {
@@ -17,7 +17,9 @@ pub fn queue(ui: &mut Ui, state: &mut State) {
         ui.horizontal(|ui| {
             let can_go = *turn != Turn::Now;
             let button = Button::new(words::REMOVE).small();
-            if ui.add_enabled(can_go, button).on_hover_text(words::remove(&name)).clicked() {
+            let button = ui.add_enabled(can_go, button).on_hover_text(words::remove(&name));
+            button.widget_info(|| WidgetInfo::labeled(Role::Button, can_go, words::remove(&name)));
+            if button.clicked() {
                 removed = Some(index);
             }
             ui.weak(words::turn(*turn));

@@ -15,18 +15,18 @@ pub fn status(ui: &mut Ui, state: &State) {
                 ui.label(text);
             });
         };
+        cell(ui, 150.0, words::phase(&state.phase));
         ui.allocate_ui(vec2(18.0, 18.0), |ui| {
             ui.set_min_width(18.0);
             if matches!(state.phase, Phase::Loading | Phase::Ending) {
                 ui.add(Spinner::new().size(16.0));
             }
         });
-        cell(ui, 140.0, words::phase(&state.phase));
         let progress = state.progress.as_ref();
         let fraction = progress.and_then(|p| p.fraction);
         match fraction {
             Some(part) => {
-                let text = format!("{:.0} %", 100.0 * part);
+                let text = words::whole_percent(part);
                 ui.add(ProgressBar::new(part as f32).desired_width(140.0).text(text));
             }
             // Without a halting condition there is no end to be near to.
@@ -36,7 +36,7 @@ pub fn status(ui: &mut Ui, state: &State) {
         cell(ui, 110.0, words::samples_per_pixel(p.samples_per_pixel));
         cell(ui, 120.0, words::samples_per_second(&scaled(p.samples_per_second)));
         cell(ui, 110.0, words::elapsed(&clock(p.elapsed)));
-        cell(ui, 100.0, p.left.map(|left| words::left(&clock(left))).unwrap_or_default());
+        cell(ui, 100.0, state.time_left().map(|left| words::left(&clock(left))).unwrap_or_default());
         cell(ui, 110.0, p.relative_error.map(words::error).unwrap_or_default());
     });
 }

@@ -6,7 +6,7 @@ use crate::controls::{Controls, Mapper, read_response};
 use crate::engine::Histogram;
 use crate::log::{Line, Weight};
 use crate::state::{State, Tool};
-use crate::words;
+use crate::{theme, words};
 use eframe::egui::{
     Button, Checkbox, Color32, ComboBox, Mesh, Pos2, Rect, Response, Sense, Shape, Slider, Stroke, Ui, pos2,
     vec2,
@@ -44,7 +44,7 @@ fn mapping(ui: &mut Ui, state: &mut State, controls: &mut Controls) {
     head(ui, words::TONE_MAPPING);
     row(ui, words::MAPPER, |ui| {
         ComboBox::from_id_salt("mapper")
-            .width(160.0)
+            .width(theme::CONTROL)
             .selected_text(words::mapper(controls.mapper))
             .show_ui(ui, |ui| {
                 for mapper in Mapper::ALL {
@@ -82,7 +82,7 @@ fn scale(ui: &mut Ui, name: &str, value: &mut f64, range: std::ops::RangeInclusi
 fn response(ui: &mut Ui, state: &mut State, controls: &mut Controls) {
     row(ui, words::RESPONSE, |ui| {
         ComboBox::from_id_salt("response")
-            .width(160.0)
+            .width(theme::CONTROL)
             .selected_text(words::response(controls.response.name()))
             .show_ui(ui, |ui| {
                 let display = std::sync::Arc::new(Curves::display());
@@ -133,7 +133,7 @@ fn white(ui: &mut Ui, state: &mut State, controls: &mut Controls) {
     head(ui, words::WHITE_BALANCE);
     row(ui, words::WHITE, |ui| {
         ComboBox::from_id_salt("white")
-            .width(160.0)
+            .width(theme::CONTROL)
             .selected_text(controls.white_name())
             .show_ui(ui, |ui| {
                 for illuminant in indigo_spectrum::illuminant::ALL {
@@ -146,7 +146,7 @@ fn white(ui: &mut Ui, state: &mut State, controls: &mut Controls) {
         let picks = state.tool == Tool::Grey;
         let button = ui.add(Button::new(words::PICK_GREY).selected(picks)).on_hover_text(words::GREY_HINT);
         if button.clicked() {
-            state.tool = if picks { Tool::Pan } else { Tool::Grey };
+            state.set_tool(if picks { Tool::Pan } else { Tool::Grey });
         }
         button
     });
@@ -205,7 +205,6 @@ fn filled(line: &[Pos2], inner: Rect, colour: Color32) -> Mesh {
 mod tests {
     use super::*;
     use crate::recent::Recent;
-    use crate::theme;
     use egui_kittest::Harness;
     use egui_kittest::kittest::Queryable as _;
     use indigo_front::flags::Arguments;

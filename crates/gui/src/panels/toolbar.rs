@@ -3,7 +3,7 @@
 use crate::action::{Action, Ask};
 use crate::comparison::Layout;
 use crate::engine::{Command, Phase};
-use crate::state::{State, Tool};
+use crate::state::{Gesture, State, Tool};
 use crate::words;
 use eframe::egui::{Button, Ui};
 use indigo_render::output::OneFile;
@@ -112,7 +112,7 @@ fn view(ui: &mut Ui, state: &mut State) {
         state.view.fit();
     }
     if ui.selectable_label(false, words::ONE_TO_ONE).on_hover_text(words::ONE_TO_ONE_HINT).clicked() {
-        state.wants_one_to_one = true;
+        state.gesture(Gesture::OneToOne);
     }
 }
 
@@ -122,7 +122,9 @@ fn tools(ui: &mut Ui, state: &mut State) {
         (Tool::Grey, words::GREY, words::GREY_HINT),
         (Tool::Region, words::REGION, words::REGION_HINT),
     ] {
-        ui.selectable_value(&mut state.tool, tool, name).on_hover_text(hint);
+        if ui.selectable_label(state.tool == tool, name).on_hover_text(hint).clicked() {
+            state.set_tool(tool);
+        }
     }
 }
 

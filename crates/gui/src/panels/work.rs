@@ -1,11 +1,11 @@
 //! How the scene is rendered.
 
-use super::{head, row};
+use super::{head, named, row};
 use crate::action::Action;
 use crate::engine::Command;
 use crate::state::{State, Tool};
-use crate::words;
 use crate::work::{Mode, Sampling, Work};
+use crate::{theme, words};
 use eframe::egui::{Button, ComboBox, DragValue, Response, Ui};
 use indigo_scene::schema::settings::MOST_THREADS;
 
@@ -52,10 +52,10 @@ fn halts(ui: &mut Ui, work: &mut Work) {
         ui.add(DragValue::new(&mut work.halt_spp.1).range(1..=u64::from(u32::MAX)))
     });
     condition(ui, &mut work.halt_time.0, words::HALT_TIME, |ui| {
-        ui.add(DragValue::new(&mut work.halt_time.1).range(1.0..=1e7).suffix(" s"))
+        ui.add(DragValue::new(&mut work.halt_time.1).range(1.0..=1e7).suffix(words::SECONDS))
     });
     condition(ui, &mut work.halt_error.0, words::HALT_ERROR, |ui| {
-        ui.add(DragValue::new(&mut work.halt_error.1).range(0.01..=100.0).speed(0.05).suffix(" %"))
+        ui.add(DragValue::new(&mut work.halt_error.1).range(0.01..=100.0).speed(0.05).suffix(words::PER_CENT))
     })
     .on_hover_text(words::HALT_ERROR_HINT);
 }
@@ -63,27 +63,17 @@ fn halts(ui: &mut Ui, work: &mut Work) {
 /// A halting condition that can be switched on.
 fn condition(ui: &mut Ui, is_on: &mut bool, name: &str, value: impl FnOnce(&mut Ui) -> Response) -> Response {
     ui.horizontal(|ui| {
-        let switch = ui.add_sized([160.0, 22.0], left_checkbox(is_on, name));
+        let switch = named(ui, |ui| ui.checkbox(is_on, name));
         let value = ui.add_enabled_ui(*is_on, value).inner.labelled_by(switch.id);
         switch | value
     })
     .inner
 }
 
-/// A checkbox whose text begins at its left, however wide it is.
-fn left_checkbox<'a>(is_on: &'a mut bool, name: &'a str) -> impl eframe::egui::Widget + 'a {
-    move |ui: &mut Ui| {
-        ui.with_layout(eframe::egui::Layout::left_to_right(eframe::egui::Align::Center), |ui| {
-            ui.checkbox(is_on, name)
-        })
-        .inner
-    }
-}
-
 fn transport(ui: &mut Ui, mode: &mut Mode) {
     row(ui, words::TECHNIQUE, |ui| {
         ComboBox::from_id_salt("technique")
-            .width(170.0)
+            .width(theme::CONTROL)
             .selected_text(words::technique(mode.bidirectional))
             .show_ui(ui, |ui| {
                 for bidirectional in [false, true] {
@@ -95,7 +85,7 @@ fn transport(ui: &mut Ui, mode: &mut Mode) {
     });
     row(ui, words::SAMPLING, |ui| {
         ComboBox::from_id_salt("sampling")
-            .width(170.0)
+            .width(theme::CONTROL)
             .selected_text(words::sampling(mode.sampling))
             .show_ui(ui, |ui| {
                 for sampling in Sampling::ALL {
@@ -113,7 +103,7 @@ fn region(ui: &mut Ui, state: &mut State, work: Work) {
         let draws = state.tool == Tool::Region;
         let draw = Button::new(words::DRAW_REGION).selected(draws);
         if ui.add(draw).on_hover_text(words::REGION_HINT).clicked() {
-            state.tool = if draws { Tool::Pan } else { Tool::Region };
+            state.set_tool(if draws { Tool::Pan } else { Tool::Region });
         }
         if ui.add_enabled(region.is_some(), Button::new(words::WHOLE_PICTURE)).clicked() {
             state.command(Command::SetRegion(None, work));

@@ -21,7 +21,7 @@ impl State {
                 (self.findings, self.sources, self.source_view) = (findings, sources, None);
             }
             Update::Film(settings, path) => {
-                self.facts = None;
+                (self.facts, self.file) = (None, None);
                 self.path = Some(path.display().to_string());
                 self.wanted.clone_from(&self.path);
                 self.controls = Some(Controls::of(&settings));
@@ -64,7 +64,14 @@ impl State {
             self.mode_is_chosen = false;
         }
         self.progress = None;
-        self.file = None;
+        // Another part of the picture is no reason to read the files anew.
+        if work.is_some() {
+            self.file = None;
+            if self.shows_elements {
+                self.act(Action::ReadElements);
+            }
+        }
+        (self.cross, self.corner) = (None, None);
         // What was tried out on the same scene stays, unless its files say something else now.
         let of_files = Controls::of(&facts.picture);
         let is_as_before = self.base.as_ref().is_some_and(|base| Controls::of(base) == of_files);

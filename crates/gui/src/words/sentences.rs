@@ -1,6 +1,6 @@
-//! What the window says of something.
+//! What the window says of something that is shown: the second part of its list of words.
 
-use super::PROGRAM;
+use super::{PER_CENT, PROGRAM, UNKNOWN};
 use crate::comparison::Layout;
 use crate::controls::Mapper;
 use crate::engine::Phase;
@@ -10,8 +10,8 @@ use crate::work::Sampling;
 use indigo_film::FilmSize;
 use indigo_front::flags::Role;
 use indigo_render::HaltReason;
-use indigo_render::output::OneFile;
 use std::path::Path;
+use std::time::Duration;
 
 /// An option of the console alone.
 pub fn only_of_console(option: &str) -> String {
@@ -96,9 +96,9 @@ pub fn phase(phase: &Phase) -> String {
         Phase::Ending => "Saving".to_owned(),
         Phase::Slave => "Rendering for a master".to_owned(),
         Phase::Halted(reason) => match reason {
-            HaltReason::Samples => "Done: samples",
-            HaltReason::Error => "Done: error",
-            HaltReason::Time => "Done: time",
+            HaltReason::Samples => "Done: samples reached",
+            HaltReason::Error => "Done: error reached",
+            HaltReason::Time => "Done: time is up",
             HaltReason::Stopped => "Stopped",
             HaltReason::Failed(_) => "Failed",
         }
@@ -138,6 +138,11 @@ pub fn samples_per_second(scaled: &str) -> String {
     format!("{scaled} samples/s")
 }
 
+/// A rate of anything, where its name stands in front.
+pub fn per_second(scaled: &str) -> String {
+    format!("{scaled} /s")
+}
+
 /// A time of rendering.
 pub fn elapsed(clock: &str) -> String {
     format!("{clock} elapsed")
@@ -148,6 +153,15 @@ pub fn left(clock: &str) -> String {
     format!("{clock} left")
 }
 
+/// Why no time is left to be told.
+pub fn no_time_left(phase: &Phase) -> &'static str {
+    match phase {
+        Phase::Paused => "paused",
+        Phase::Halted(_) => "none",
+        _ => UNKNOWN,
+    }
+}
+
 /// An estimated error.
 pub fn error(fraction: f64) -> String {
     format!("error {}", percent(fraction))
@@ -155,7 +169,17 @@ pub fn error(fraction: f64) -> String {
 
 /// A part of the whole.
 pub fn percent(fraction: f64) -> String {
-    format!("{:.2} %", 100.0 * fraction)
+    format!("{:.2}{PER_CENT}", 100.0 * fraction)
+}
+
+/// How much is done.
+pub fn whole_percent(fraction: f64) -> String {
+    format!("{:.0}{PER_CENT}", 100.0 * fraction)
+}
+
+/// A short time.
+pub fn milliseconds(time: Duration) -> String {
+    format!("{:.0} ms", time.as_secs_f64() * 1e3)
 }
 
 /// An amount of memory.
@@ -177,7 +201,7 @@ pub fn exposure(lux_seconds: f64) -> String {
 pub fn size(size: FilmSize) -> String {
     match size.super_sample() {
         1 => format!("{} × {}", size.width(), size.height()),
-        n => format!("{} × {}, {n}² samples", size.width(), size.height()),
+        n => format!("{} × {} by {n} × {n}", size.width(), size.height()),
     }
 }
 
@@ -211,65 +235,6 @@ pub fn findings(n: usize) -> String {
     }
 }
 
-/// A place in a file.
-pub fn place(name: &str, line: usize) -> String {
-    format!("{name}, line {line}")
-}
-
-/// A scene was loaded.
-pub fn loaded(path: &str, seconds: f64) -> String {
-    format!("Loaded {path} in {seconds:.2} s")
-}
-
-/// A scene with errors.
-pub fn not_rendered(path: &str) -> String {
-    format!("{path} cannot be rendered: see the findings below")
-}
-
-/// A film will be gone on with.
-pub fn goes_on_with(path: &Path) -> String {
-    format!("{} is a film of this scene: Start continues it", path.display())
-}
-
-/// A film of another scene.
-pub fn only_looked_at(path: &Path, reason: &str) -> String {
-    format!("{} can be viewed but not continued: {reason}", path.display())
-}
-
-/// A path that is no text.
-pub fn not_text(path: &Path) -> String {
-    format!("{} is not Unicode text", path.display())
-}
-
-/// A file was written.
-pub fn saved(path: &Path) -> String {
-    format!("Saved {}", path.display())
-}
-
-/// The ending of a file.
-pub fn ending(what: OneFile) -> &'static str {
-    match what {
-        OneFile::Picture => "png",
-        OneFile::Luminances => "exr",
-        OneFile::Film => "igi",
-    }
-}
-
-/// A packed scene cannot be changed.
-pub fn packed(path: &str) -> String {
-    format!("{path} is packed: to change it, unpack it by indigo_console --unpack")
-}
-
-/// A scene that cannot be read.
-pub fn unreadable(path: &str) -> String {
-    format!("{path} cannot be read")
-}
-
-/// A file is another than the one that was read.
-pub fn changed_elsewhere(path: &str) -> String {
-    format!("{path} has changed since it was read: reload the scene first")
-}
-
 /// How many elements are to be changed.
 pub fn changes(n: usize) -> String {
     if n == 0 { "No changes".to_owned() } else { indigo_front::messages::count(n, "change") }
@@ -295,7 +260,7 @@ pub fn role_hint(role: Option<Role>) -> &'static str {
     match role {
         None => "No other machine takes part",
         Some(Role::Master) => "Hands out the scene, and adds up what slaves render",
-        Some(Role::WorkingMaster) => "The same, and renders as well",
+        Some(Role::WorkingMaster) => "A master that renders as well",
         Some(Role::Slave) => "Renders the scene of a master, which has the picture",
     }
 }
@@ -313,14 +278,6 @@ pub fn start_as(role: Role) -> &'static str {
 pub fn no_host(text: &str) -> String {
     format!(
         "{text} is not a machine: expected a name or address, with a port if need be, such as studio or studio:7000"
-    )
-}
-
-/// A key was made.
-pub fn key_made(path: &Path) -> String {
-    format!(
-        "Saved {}: copy it to all machines of the render by a way that nobody else can see",
-        path.display()
     )
 }
 

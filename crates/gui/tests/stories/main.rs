@@ -140,6 +140,30 @@ fn a_picture_grows_rests_is_saved_and_seen_again() {
     std::fs::remove_dir_all(&folder).expect("the story's own files");
 }
 
+/// Where no program of the desktop asks for files, the window does.
+#[test]
+fn a_scene_is_opened_by_its_typed_path() {
+    let folder = scratch("typed");
+    even_light(&folder);
+    let mut screen = Screen::start(&folder, LARGE, &[]);
+    std::thread::sleep(Duration::from_secs(1));
+    let shown = light(&screen);
+    screen.press(&[keys::CONTROL, u32::from(b'o')]);
+    screen.wait_for("question", |screen| (light(screen) < 0.6 * shown).then_some(()));
+    std::thread::sleep(Duration::from_millis(500));
+    for key in "even.ig".bytes() {
+        screen.press(&[u32::from(key)]);
+    }
+    screen.press(&[keys::RETURN]);
+    std::thread::sleep(Duration::from_millis(500));
+    screen.see().keep("typed");
+    // There is none of that name, and the line can be mended.
+    screen.press(&[u32::from(b's')]);
+    screen.press(&[keys::RETURN]);
+    wait_for_picture(&mut screen);
+    std::fs::remove_dir_all(&folder).expect("the story's own files");
+}
+
 #[test]
 fn a_film_is_looked_at_again() {
     let folder = scratch("film");

@@ -22,6 +22,7 @@ static SCREEN: Mutex<()> = Mutex::new(());
 pub mod keys {
     pub const CONTROL: u32 = 0xffe3;
     pub const ESCAPE: u32 = 0xff1b;
+    pub const RETURN: u32 = 0xff0d;
     pub const TAB: u32 = 0xff09;
     pub const F2: u32 = 0xffbf;
     pub const BRACKET_RIGHT: u32 = 0x5d;
@@ -108,6 +109,9 @@ impl Screen {
             .env("HOME", folder)
             .env("XDG_DATA_HOME", folder)
             .env("INDIGO_CACHE", folder)
+            // Nothing of a desktop that may be there: no dialogs for files, by a portal or a program.
+            .env("DBUS_SESSION_BUS_ADDRESS", "unix:path=/nowhere")
+            .env("PATH", folder)
             .env_remove("WAYLAND_DISPLAY")
             .stdin(Stdio::null())
             .spawn()

@@ -1,0 +1,122 @@
+//! What the window says of files and their paths: the third part of its list of words.
+
+use crate::action::Ask;
+use indigo_render::output::OneFile;
+use std::path::Path;
+
+/// A place in a file.
+pub fn place(name: &str, line: usize) -> String {
+    format!("{name}, line {line}")
+}
+
+/// A scene was loaded.
+pub fn loaded(path: &str, seconds: f64) -> String {
+    format!("Loaded {path} in {seconds:.2} s")
+}
+
+/// A scene with errors.
+pub fn not_rendered(path: &str) -> String {
+    format!("{path} cannot be rendered: see the findings below")
+}
+
+/// A film will be gone on with.
+pub fn goes_on_with(path: &Path) -> String {
+    format!("{} is a film of this scene: press Start to continue it", path.display())
+}
+
+/// A film of another scene.
+pub fn only_looked_at(path: &Path, reason: &str) -> String {
+    format!("{} can be viewed but not continued: {reason}", path.display())
+}
+
+/// A path that is no text.
+pub fn not_text(path: &Path) -> String {
+    format!("the path {} is not valid Unicode", path.display())
+}
+
+/// A file was written.
+pub fn saved(path: &Path) -> String {
+    format!("Saved {}", path.display())
+}
+
+/// What a path is asked for.
+pub fn asked_for(ask: Ask) -> &'static str {
+    match ask {
+        Ask::Open => "Open a scene or film",
+        Ask::Save(OneFile::Picture) => "Save the picture as PNG",
+        Ask::Save(OneFile::Luminances) => "Save the luminances as EXR",
+        Ask::Save(OneFile::Film) => "Save the film as IGI",
+        Ask::Compare => "Compare with a saved picture",
+        Ask::Queue => "Add a scene to the queue",
+        Ask::Key => "Choose a key file",
+        Ask::NewKey => "Save a new key",
+    }
+}
+
+/// The button that takes it.
+pub fn answer(ask: Ask) -> &'static str {
+    match ask {
+        Ask::Open | Ask::Compare => "Open",
+        Ask::Save(_) | Ask::NewKey => "Save",
+        Ask::Queue => "Add",
+        Ask::Key => "Choose",
+    }
+}
+
+/// A folder where a file is expected.
+pub fn is_folder(path: &Path) -> String {
+    format!("{} is a folder: expected a file", path.display())
+}
+
+/// No such folder.
+pub fn no_folder(path: &Path) -> String {
+    format!("there is no folder {}", path.display())
+}
+
+/// No such file.
+pub fn no_file(path: &Path) -> String {
+    format!("there is no file {}", path.display())
+}
+
+/// A file that would be written over.
+pub fn is_there(path: &Path) -> String {
+    format!("{} is there already: save once more to replace it", path.display())
+}
+
+/// Changed elements that would be lost.
+pub fn unsaved(n: usize) -> String {
+    let changes = indigo_front::messages::count(n, "change");
+    format!("You have made {changes} to the scene's elements. What should happen to them?")
+}
+
+/// The ending of a file.
+pub fn ending(what: OneFile) -> &'static str {
+    match what {
+        OneFile::Picture => "png",
+        OneFile::Luminances => "exr",
+        OneFile::Film => "igi",
+    }
+}
+
+/// A packed scene cannot be changed.
+pub fn packed(path: &str) -> String {
+    format!("{path} is packed: to change it, unpack it with indigo_console --unpack")
+}
+
+/// A scene that cannot be read.
+pub fn unreadable(path: &str) -> String {
+    format!("{path} cannot be read")
+}
+
+/// A file is another than the one that was read.
+pub fn changed_elsewhere(path: &str) -> String {
+    format!("{path} has changed since it was read: reload the scene first")
+}
+
+/// A key was made.
+pub fn key_made(path: &Path) -> String {
+    format!(
+        "Saved {}: copy it to all machines of the render in a way that nobody else can see",
+        path.display()
+    )
+}
