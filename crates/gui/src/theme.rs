@@ -13,6 +13,8 @@ pub const FOOT: f32 = 152.0;
 pub const FOOT_HEIGHTS: std::ops::RangeInclusive<f32> = 90.0..=420.0;
 /// Height of the line with the state, and of that with the pixel under the pointer.
 pub const LINE: f32 = 30.0;
+/// Height of a line that only tells something.
+pub const FACT: f32 = 16.0;
 /// Width of the names of controls.
 pub const NAME: f32 = 130.0;
 /// Width of the controls behind them: what the panel leaves, less its margins of 8 points and the space between the two.

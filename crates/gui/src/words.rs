@@ -62,20 +62,21 @@ texts! {
     TABS_HINT = "Show Picture, Render, Scene, Queue or Network";
     START_OR_PAUSE = "Start, pause or continue";
     DARKER_BRIGHTER = "Half a stop darker, brighter";
-    ZOOM_IN = "Zoom in";
-    ZOOM_OUT = "Zoom out";
+    ZOOM_HINT = "Zoom in with + or =, out with −";
+    GREY_KEY_HINT = "Take a grey point: something that should be grey";
+    REGION_KEY_HINT = "Draw a region: only that part is rendered, from the start";
     CROSS_HINT = "Show or hide a cross that reads a pixel's values";
     PAN_KEY_HINT = "Put away the cross, the grey point or the region";
     LAYOUT_HINT = "Compare side by side, split by a line, or not";
     LINE_HINT = "Move the line of a comparison";
     KEYS_HINT = "Show the keyboard shortcuts";
     STEP_HINT = "Move the cross by a pixel, or the picture";
-    FAR_STEP_HINT = "Move it further";
+    FAR_STEP_HINT = "Move the cross by ten pixels, or the picture by half";
     TAKE_HINT = "Take the grey point, or a corner of the region, at the cross";
     WHEEL = "Wheel";
     WHEEL_HINT = "Zoom at the pointer; the right button moves the line of a comparison";
     TAB_KEY = "Tab";
-    TAB_HINT = "Go to the next control; arrows change it, Space or Enter presses it, Esc leaves it";
+    TAB_HINT = "Go to the next control; arrows change it, Space or Enter presses it, Escape leaves it";
 }
 
 // Development.
@@ -137,6 +138,7 @@ texts! {
     SCENE = "Scene";
     FILE = "File";
     SIZE = "Size";
+    SUPER_SAMPLING = "Supersampling";
     TRIANGLES = "Triangles";
     OBJECTS = "Objects";
     LIGHTS = "Lights";

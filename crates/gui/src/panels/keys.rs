@@ -55,11 +55,12 @@ const PLAIN: &[Row] = &[
     (Modifiers::NONE, &[Key::Backspace], words::RESET_HINT, |state, _| state.reset_controls()),
     (Modifiers::NONE, &[Key::F], words::FIT_HINT, |state, _| state.view.fit()),
     (Modifiers::NONE, &[Key::Num1], words::ONE_TO_ONE_HINT, |state, _| state.gesture(Gesture::OneToOne)),
-    (Modifiers::NONE, &[Key::Plus, Key::Equals], words::ZOOM_IN, |state, _| state.gesture(Gesture::ZoomIn)),
-    (Modifiers::NONE, &[Key::Minus], words::ZOOM_OUT, |state, _| state.gesture(Gesture::ZoomOut)),
+    (Modifiers::NONE, &[Key::Plus, Key::Equals, Key::Minus], words::ZOOM_HINT, |state, index| {
+        state.gesture(if index == 2 { Gesture::ZoomOut } else { Gesture::ZoomIn });
+    }),
     (Modifiers::NONE, &[Key::I], words::CROSS_HINT, |state, _| state.gesture(Gesture::Cross)),
-    (Modifiers::NONE, &[Key::G], words::GREY_HINT, |state, _| state.set_tool(Tool::Grey)),
-    (Modifiers::NONE, &[Key::R], words::REGION_HINT, |state, _| state.set_tool(Tool::Region)),
+    (Modifiers::NONE, &[Key::G], words::GREY_KEY_HINT, |state, _| state.set_tool(Tool::Grey)),
+    (Modifiers::NONE, &[Key::R], words::REGION_KEY_HINT, |state, _| state.set_tool(Tool::Region)),
     (Modifiers::NONE, &[Key::Escape], words::PAN_KEY_HINT, |state, _| state.leave_tools()),
     (Modifiers::NONE, &[Key::C], words::LAYOUT_HINT, |state, _| state.next_layout()),
     (Modifiers::NONE, &[Key::Comma, Key::Period], words::LINE_HINT, |state, index| {
@@ -115,7 +116,9 @@ fn obey(context: &Context, state: &mut State, rows: &[Row]) {
 }
 
 fn list(ui: &mut Ui) {
-    Grid::new("keys").num_columns(2).spacing([24.0, 4.0]).show(ui, |ui| {
+    // So that it fits into the smallest window.
+    let grid = Grid::new("keys").num_columns(2).spacing([24.0, 3.0]).min_row_height(16.0);
+    grid.show(ui, |ui| {
         for (modifiers, keys, what, _) in COMMANDS.iter().chain(PLAIN).chain(IN_PICTURE) {
             ui.monospace(names(ui, *modifiers, keys));
             ui.label(*what);
@@ -133,6 +136,8 @@ fn list(ui: &mut Ui) {
 fn names(ui: &Ui, modifiers: Modifiers, keys: &[Key]) -> String {
     let name = |(index, key): (usize, &Key)| match (index, modifiers.is_none()) {
         (0, false) => ui.ctx().format_shortcut(&KeyboardShortcut::new(modifiers, *key)),
+        // No font of even widths has their symbols.
+        _ if ARROWS.contains(key) => key.name().to_owned(),
         _ => key.symbol_or_name().to_owned(),
     };
     keys.iter().enumerate().map(name).collect::<Vec<_>>().join(" ")

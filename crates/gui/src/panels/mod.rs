@@ -81,7 +81,11 @@ fn head(ui: &mut Ui, text: &str) {
 /// A fact with its name in front.
 fn fact(ui: &mut Ui, name: &str, value: impl Into<String>) {
     let value = value.into();
-    row(ui, name, |ui| ui.monospace(value));
+    ui.scope(|ui| {
+        // Lower than what can be pressed.
+        ui.spacing_mut().interact_size.y = theme::FACT;
+        row(ui, name, |ui| ui.monospace(value));
+    });
 }
 
 #[cfg(test)]

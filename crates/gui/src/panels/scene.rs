@@ -32,6 +32,7 @@ fn overview(ui: &mut Ui, state: &State) {
     let name = std::path::Path::new(&facts.path).file_name().map(|name| name.to_string_lossy().into_owned());
     fact(ui, words::FILE, name.unwrap_or_default());
     fact(ui, words::SIZE, words::size(facts.size));
+    fact(ui, words::SUPER_SAMPLING, words::super_sampling(facts.size.super_sample()));
     let stats = &facts.stats;
     let number = |n: usize| scaled(n as f64);
     fact(ui, words::TRIANGLES, scaled(stats.geometry.triangles as f64));

@@ -6,7 +6,7 @@ use crate::state::State;
 use crate::words;
 use eframe::egui::{Align, Button, CollapsingHeader, Label, Layout, TextEdit, Ui, vec2};
 use indigo_decl::Element;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 
 /// The most children of an element that are listed.
 const MOST_CHILDREN: usize = 300;
@@ -60,12 +60,17 @@ struct Tree<'f> {
 
 impl Tree<'_> {
     fn children(&mut self, ui: &mut Ui, element: &Element) {
+        let mut titles = HashMap::new();
         for (index, child) in element.children.iter().take(MOST_CHILDREN).enumerate() {
             self.way.push(index);
             if child.children.is_empty() {
                 self.leaf(ui, child);
             } else {
-                CollapsingHeader::new(title(child))
+                let title = title(child);
+                let same = titles.entry(title.clone()).and_modify(|n| *n += 1).or_insert(1);
+                // Two models of one mesh, say.
+                let title = if *same > 1 { words::one_of_many(&title, *same) } else { title };
+                CollapsingHeader::new(title)
                     .id_salt(self.way.as_slice())
                     .show(ui, |ui| self.children(ui, child));
             }
@@ -151,6 +156,7 @@ mod tests {
     fn models_are_told_from_each_other_and_fields_stand_in_a_column() {
         let path = std::env::temp_dir().join(format!("indigo-tree-{}.igs", std::process::id()));
         let text = "<scene><model><mesh_name>cube</mesh_name><scale>1</scale></model>\
+                    <model><mesh_name>cube</mesh_name></model>\
                     <model><mesh_name>sphere</mesh_name><pos>0 0 1</pos></model><top>7</top></scene>";
         std::fs::write(&path, text).unwrap();
         let mut state = State::new(Arguments::default(), Recent::default());
@@ -160,6 +166,7 @@ mod tests {
         harness.run();
         harness.get_by_label("model cube").click();
         harness.run();
+        assert!(harness.query_by_label("model cube (2)").is_some());
         assert!(harness.query_by_label("model sphere").is_some());
         let fields = harness.query_all_by_role(Role::TextInput).map(|field| field.rect().left());
         let lefts: Vec<f32> = fields.collect();

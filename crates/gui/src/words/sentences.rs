@@ -140,7 +140,7 @@ pub fn samples_per_second(scaled: &str) -> String {
 
 /// A rate of anything, where its name stands in front.
 pub fn per_second(scaled: &str) -> String {
-    format!("{scaled} /s")
+    format!("{scaled}/s")
 }
 
 /// A time of rendering.
@@ -199,10 +199,12 @@ pub fn exposure(lux_seconds: f64) -> String {
 
 /// The size of a picture.
 pub fn size(size: FilmSize) -> String {
-    match size.super_sample() {
-        1 => format!("{} × {}", size.width(), size.height()),
-        n => format!("{} × {} by {n} × {n}", size.width(), size.height()),
-    }
+    format!("{} × {}", size.width(), size.height())
+}
+
+/// How many samples are kept for each of its pixels.
+pub fn super_sampling(factor: u32) -> String {
+    format!("{factor} × {factor}")
 }
 
 /// What is rendered.
@@ -238,6 +240,11 @@ pub fn findings(n: usize) -> String {
 /// How many elements are to be changed.
 pub fn changes(n: usize) -> String {
     if n == 0 { "No changes".to_owned() } else { indigo_front::messages::count(n, "change") }
+}
+
+/// The second and further of elements of one name.
+pub fn one_of_many(title: &str, number: usize) -> String {
+    format!("{title} ({number})")
 }
 
 /// Elements that are not listed.

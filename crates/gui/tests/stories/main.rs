@@ -12,6 +12,8 @@ use std::time::Duration;
 
 const LARGE: [u16; 2] = [1280, 800];
 const SMALL: [u16; 2] = [960, 600];
+/// The grey round the picture in the dark theme, with which the window begins.
+const GROUND: [u8; 3] = [38; 3];
 
 /// Even light from everywhere, seen through a camera whose sensor gathers a fifth of what saturates it.
 fn even_light(folder: &Path) -> String {
@@ -146,10 +148,11 @@ fn a_scene_is_opened_by_its_typed_path() {
     let folder = scratch("typed");
     even_light(&folder);
     let mut screen = Screen::start(&folder, LARGE, &[]);
-    std::thread::sleep(Duration::from_secs(1));
-    let shown = light(&screen);
+    // A corner of the area of the picture, which becomes darker behind a question.
+    let ground = |screen: &Screen| screen.see_at([10, 60]);
+    screen.wait_for("ground of the picture", |screen| (ground(screen) == GROUND).then_some(()));
     screen.press(&[keys::CONTROL, u32::from(b'o')]);
-    screen.wait_for("question", |screen| (light(screen) < 0.6 * shown).then_some(()));
+    screen.wait_for("question", |screen| (ground(screen) != GROUND).then_some(()));
     std::thread::sleep(Duration::from_millis(500));
     for key in "even.ig".bytes() {
         screen.press(&[u32::from(key)]);
@@ -217,6 +220,24 @@ fn both_themes_at_two_sizes() {
         }
         std::fs::remove_dir_all(&folder).expect("the story's own files");
     }
+}
+
+#[test]
+fn the_log_keeps_the_height_that_it_was_given() {
+    let folder = scratch("height");
+    let edge = LARGE[1] - 30 - 152;
+    // Above the line with the pixel's values at first.
+    let ground = |screen: &Screen| screen.see_at([10, edge - 50]);
+    let mut screen = Screen::start(&folder, LARGE, &[]);
+    screen.wait_for("ground of the picture", |screen| (ground(screen) == GROUND).then_some(()));
+    screen.drag([200, edge as i16], [200, edge as i16 - 100]);
+    let log = screen.wait_for("higher log", |screen| Some(ground(screen)).filter(|seen| *seen != GROUND));
+    screen.ask_to_close();
+    assert!(screen.wait_for_end());
+    drop(screen);
+    let mut again = Screen::start(&folder, LARGE, &[]);
+    again.wait_for("log of the same height", |screen| (ground(screen) == log).then_some(()));
+    std::fs::remove_dir_all(&folder).expect("the story's own files");
 }
 
 #[test]

@@ -7,8 +7,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 use x11rb::connection::Connection as _;
 use x11rb::protocol::xproto::{
-    Atom, ClientMessageEvent, ConnectionExt as _, EventMask, ImageFormat, InputFocus, KEY_PRESS_EVENT,
-    KEY_RELEASE_EVENT, MOTION_NOTIFY_EVENT, Window as WindowId,
+    Atom, BUTTON_PRESS_EVENT, BUTTON_RELEASE_EVENT, ClientMessageEvent, ConnectionExt as _, EventMask,
+    ImageFormat, InputFocus, KEY_PRESS_EVENT, KEY_RELEASE_EVENT, MOTION_NOTIFY_EVENT, Window as WindowId,
 };
 use x11rb::protocol::xtest::ConnectionExt as _;
 use x11rb::rust_connection::RustConnection;
@@ -177,6 +177,21 @@ impl Screen {
         std::thread::sleep(Duration::from_millis(150));
     }
 
+    /// Moves the pointer from one place to another with its first button held.
+    pub fn drag(&self, from: [i16; 2], to: [i16; 2]) {
+        // Each takes a frame of its own, also on a busy machine: what comes at once is a click.
+        let frame = || std::thread::sleep(Duration::from_millis(500));
+        self.point(from);
+        frame();
+        self.fake(BUTTON_PRESS_EVENT, 1, [0, 0]);
+        frame();
+        self.point([i16::midpoint(from[0], to[0]), i16::midpoint(from[1], to[1])]);
+        frame();
+        self.point(to);
+        frame();
+        self.fake(BUTTON_RELEASE_EVENT, 1, [0, 0]);
+    }
+
     fn fake(&self, kind: u8, detail: u8, [x, y]: [i16; 2]) {
         self.connection.xtest_fake_input(kind, detail, 0, self.root, x, y, 0).unwrap().check().unwrap();
     }
@@ -194,6 +209,11 @@ impl Screen {
     /// The whole window.
     pub fn see(&self) -> Seen {
         self.see_part([0, 0], self.size)
+    }
+
+    /// One pixel of it.
+    pub fn see_at(&self, [x, y]: [u16; 2]) -> [u8; 3] {
+        self.see_part([x as i16, y as i16], [1, 1]).pixels[0]
     }
 
     /// A square in the middle of the area of the picture, less than the picture that fits there.
