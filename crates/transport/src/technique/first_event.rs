@@ -3,6 +3,7 @@
 use super::flight::{Blocks, Flight};
 use super::media::WorldMemory;
 use super::path::Path;
+use super::visibility::Point;
 use crate::sampler::PrimarySample;
 use indigo_camera::CameraRay;
 use indigo_math::{Real, Vec3};
@@ -34,7 +35,7 @@ pub fn first_event(
 ) -> Option<FirstEvent> {
     let world = memory.world(scene, lambda, camera.time);
     let ray = world.ray(camera.origin, camera.direction);
-    let mut flight = Flight::new(ray.o, ray, scene.camera_media_along(&ray));
+    let mut flight = Flight::new(&Point::free(ray.o), ray, scene.camera_media_along(&ray));
     let mut number = 0;
     // The last surface that was met: where the event is on one, the one on which it is.
     let mut met = None;

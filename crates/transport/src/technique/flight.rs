@@ -3,6 +3,7 @@
 use super::media::{Passage, World};
 use super::surface::{Surface, shade};
 use super::vertex::Vertex;
+use super::visibility::{Point, plane_distance};
 use crate::sampler::{Block, PrimarySample};
 use indigo_geom::{Ray, SurfacePoint};
 use indigo_math::{Real, Vec3, elementary};
@@ -17,7 +18,9 @@ pub(super) struct Flight {
     pub media: MediumStack,
     /// What it has passed since it left its vertex.
     pub passage: Passage,
-    /// Where on the ray its vertex lies, and how far it has come.
+    /// Its vertex, if that is on a surface, until it has passed another.
+    from: Option<Vec3>,
+    /// Where on the ray its vertex is nearest, and how far it has come.
     start: Real,
     passed: Real,
 }
@@ -61,9 +64,9 @@ enum Arrival {
 impl Flight {
     /// From a point that the ray leaves a little way off: what it passes counts from the point itself.
     #[inline]
-    pub fn new(from: Vec3, ray: Ray, media: MediumStack) -> Self {
-        let start = (from - ray.o).dot(ray.d);
-        Self { ray, media, passage: Passage::CLEAR, start, passed: start }
+    pub fn new(from: &Point, ray: Ray, media: MediumStack) -> Self {
+        let start = from.behind(&ray);
+        Self { ray, media, passage: Passage::CLEAR, from: from.on_surface(), start, passed: start }
     }
 
     /// How far it has come from its vertex, metres. In dense media that may be less than the rounding of the
@@ -134,16 +137,22 @@ impl Flight {
                 ray.t_max = ray.t_max.min(scattered);
             }
         }
-        let hit = world.intersect(&ray);
-        let t = hit.as_ref().map_or(scattered, |hit| hit.t);
+        let met = world.intersect(&ray).map(|hit| (hit.t, world.scene.accel.surface(&ray, &hit)));
         if world.has_media() {
-            self.passage = self.passage.then(world.passage(&self.media, t - self.passed));
+            let t = met.as_ref().map_or(scattered, |(t, _)| *t);
+            let way = match (&met, self.from) {
+                // Where nothing is scattered the way is that of the ray that leaves the vertex itself.
+                (Some((_, at)), Some(from)) if scattered == Real::INFINITY => {
+                    plane_distance(from, ray.d, at).unwrap_or(t - self.passed)
+                }
+                _ => t - self.passed,
+            };
+            self.passage = self.passage.then(world.passage(&self.media, way));
             self.passed = t;
         }
-        match hit {
-            Some(hit) => {
-                let at = world.scene.accel.surface(&ray, &hit);
-                self.passed = hit.t;
+        match met {
+            Some((t, at)) => {
+                self.passed = t;
                 Arrival::Surface(at)
             }
             None if scattered < Real::INFINITY => Arrival::Medium(ray.at(scattered)),
@@ -156,5 +165,6 @@ impl Flight {
     fn pass(&mut self, at: &SurfacePoint, media: MediumStack) {
         self.ray = self.ray.beyond(self.passed, at.p_error.length());
         self.media = media;
+        self.from = None;
     }
 }

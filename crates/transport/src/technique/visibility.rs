@@ -45,6 +45,18 @@ impl Point {
         offset_origin(self.p, self.p_error, self.n, direction, scene.nudge_m)
     }
 
+    /// Its place, where it is on a surface: rays leave it a little way off.
+    #[inline]
+    pub fn on_surface(&self) -> Option<Vec3> {
+        (self.n != Vec3::ZERO).then_some(self.p)
+    }
+
+    /// Where on a ray of unit direction that leaves it the point is nearest.
+    #[inline]
+    pub fn behind(&self, ray: &Ray) -> Real {
+        (self.p - ray.o).dot(ray.d)
+    }
+
     /// The ray that leaves in a direction.
     #[inline]
     pub fn spawn(&self, world: &World, direction: Vec3) -> Ray {
@@ -65,13 +77,25 @@ impl Point {
     }
 }
 
+/// How far a point is in a unit direction from the plane of a surface, metres; `None` along the plane.
+///
+/// A ray leaves beside its vertex, by a distance δ along the normal, and meets a plane that leans by θ to it up to δ / cos θ
+/// sooner or later than the same ray from the vertex would. That is counted, which is δ sin² θ / cos θ more in a plate than
+/// the way from the place on the ray that is nearest to the vertex.
+#[inline]
+pub(super) fn plane_distance(from: Vec3, direction: Vec3, surface: &SurfacePoint) -> Option<Real> {
+    let cos = direction.dot(surface.n_g);
+    (cos != 0.0).then(|| ((surface.p - from).dot(surface.n_g) / cos).max(0.0))
+}
+
 /// The way from a vertex to the light that was drawn for it; `None` where something stands between.
 #[inline]
 pub(super) fn way_to_light(world: &World, from: &Vertex, light: &LightSample) -> Option<Passage> {
     match &light.point {
         None => {
-            let ray = from.point.spawn(world, light.wi);
-            passage(world, &ray, 1.0, from.media_towards(light.wi))
+            let media = from.media_towards(light.wi);
+            let ray = from.point.spawn_into(world, light.wi, media);
+            passage(world, &ray, 1.0, from.point.on_surface(), media)
         }
         Some(to) => way(world, from, light.wi, &Point::of_light(to)),
     }
@@ -83,7 +107,7 @@ pub(super) fn way_from_lens(world: &World, origin: Vec3, wi: Vec3, to: Option<&P
     let (from, ray) = (Point::free(origin), world.ray(origin, wi));
     let media = world.scene.camera_media_along(&ray);
     match to {
-        None => passage(world, &ray, 1.0, &media),
+        None => passage(world, &ray, 1.0, None, &media),
         Some(to) => between(world, &from, &media, to),
     }
 }
@@ -104,23 +128,35 @@ fn between(world: &World, from: &Point, media: &MediumStack, to: &Point) -> Opti
     let ray = Ray { t_max: 1.0, ..world.ray(origin, target - origin) };
     // The ray leaves its ends a little way off; what it passes counts from the ends themselves.
     let length = if world.has_media() { along.length() } else { 0.0 };
-    passage(world, &ray, length, media)
+    passage(world, &ray, length, None, media)
 }
 
 /// What light passes between the ray's ends, where a step of 1 along it is of some length in metres; `None`
-/// where a surface stands between.
+/// where a surface stands between. A half-line may leave a point beside its origin, `from` which it counts.
 #[inline]
-fn passage(world: &World, ray: &Ray, length: Real, media: &MediumStack) -> Option<Passage> {
+fn passage(
+    world: &World,
+    ray: &Ray,
+    length: Real,
+    from: Option<Vec3>,
+    media: &MediumStack,
+) -> Option<Passage> {
     // Whether anything is in the way is found sooner than what comes first; but that would have to be found, too,
     // where it may be unseen.
     if world.scene.has_unseen_surfaces {
-        return walk(world, *ray, length, *media);
+        return walk(world, *ray, length, from, *media);
     }
     (!world.is_occluded(ray)).then(|| world.passage(media, ray.t_max * length))
 }
 
 /// The same through all surfaces that are not to be seen.
-fn walk(world: &World, mut ray: Ray, length: Real, mut media: MediumStack) -> Option<Passage> {
+fn walk(
+    world: &World,
+    mut ray: Ray,
+    length: Real,
+    mut from: Option<Vec3>,
+    mut media: MediumStack,
+) -> Option<Passage> {
     let scene = world.scene;
     let mut passed = 0.0;
     let mut sum = Passage::CLEAR;
@@ -130,7 +166,8 @@ fn walk(world: &World, mut ray: Ray, length: Real, mut media: MediumStack) -> Op
         if share == 0.0 {
             return None;
         }
-        sum = sum.then(world.passage(&media, (hit.t - passed) * length));
+        let way = from.take().and_then(|from| plane_distance(from, ray.d, &at));
+        sum = sum.then(world.passage(&media, way.unwrap_or((hit.t - passed) * length)));
         sum.transmittance *= share;
         (passed, media) = (hit.t, beyond);
         ray = ray.beyond(hit.t, at.p_error.length());

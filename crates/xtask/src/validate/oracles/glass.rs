@@ -65,11 +65,10 @@ fn plates() -> Vec<Check> {
         )
     };
     let plate = |d: f64| {
-        let mesh = Mesh::cube(1.0).placed([10.0, 0.0, 0.0, 0.0, 10.0, 0.0, 0.0, 0.0, d / 2.0], 1.0, [0.0; 3]);
+        let mesh =
+            Mesh::cube(1.0).placed([300.0, 0.0, 0.0, 0.0, 300.0, 0.0, 0.0, 0.0, d / 2.0], 1.0, [0.0; 3]);
         mesh.text("plate", "m") + &model("plate")
     };
-    // No larger than need be: where a ray leaves a surface is rounded by a millionth of its triangle's size, by which the way
-    // inside is too short.
     for (ior, absorption, d, degrees) in [
         (1.5, 0.0, 1.0, 0.0f64),
         (1.5, 10.0, 0.1, 0.0),
