@@ -219,7 +219,8 @@ impl Scene {
         interface: Interface,
         choice: Real,
     ) -> MaterialContext<'a> {
-        MaterialContext { textures: &self.textures, materials: &self.materials, lambda, interface, choice }
+        let (textures, materials) = (&self.textures, &self.materials);
+        MaterialContext { textures, materials, lambda, interface, choice, is_front: true }
     }
 
     /// What making and saving a picture of its film takes.

@@ -377,3 +377,68 @@ fn a_blend_with_nothing_is_partly_see_through() {
         assert_near("light through the sheet", shaded.luminance(), 0.3 * free.luminance().mean(), 5e-3);
     }
 }
+
+/// In even light a sheet shows what its own side's material scatters of its part, and what comes through of the rest.
+#[test]
+fn a_thin_sheet_has_a_material_on_each_side() {
+    let sides = grey("front", 0.8) + &grey("back", 0.2);
+    let thin = |r_f: f64, through: &str, back: &str| {
+        format!(
+            "<double_sided_thin><front_material_name>front</front_material_name>{back}<r_f>{r_f}</r_f>{through}</double_sided_thin>"
+        )
+    };
+    let back = "<back_material_name>back</back_material_name>";
+    let half = "<transmittance><constant><uniform><value>0.5</value></uniform></constant></transmittance>";
+    let map =
+        "<transmittance><texture><path>quarter.exr</path><exponent>1</exponent></texture></transmittance>";
+    for (what, kind, degrees, expected) in [
+        ("front", thin(0.6, half, back), 20.0, 0.6 * 0.8 + 0.4 * 0.5),
+        ("back", thin(0.6, half, back), 160.0, 0.6 * 0.2 + 0.4 * 0.5),
+        ("one material", thin(0.6, half, ""), 160.0, 0.6 * 0.8 + 0.4 * 0.5),
+        ("through alone", thin(0.0, half, back), 20.0, 0.5),
+        ("back alone", thin(1.0, half, back), 20.0, 0.8),
+        ("a picture", thin(0.5, map, back), 20.0, 0.5 * 0.8 + 0.5 * 0.25),
+        ("nothing through", thin(0.5, "", back), 20.0, 0.5 * 0.8),
+    ] {
+        for bidirectional in [false, true] {
+            let scene = with_technique(sheet_with(&kind, degrees, "", &sides), bidirectional);
+            let measured = measure(&scene, 8, 400);
+            let what = format!("{what}, bidirectional: {bidirectional}");
+            assert_near(&what, measured.luminance(), RADIANCE * NITS_PER_UNIFORM * expected, 1e-2);
+        }
+    }
+}
+
+/// A smooth coat shows F + R (1 − F) of even light at an angle, where it throws a part r of the ground's light back: R = ρ (1 − r) / (1 − ρ r)
+/// and r = 1 − (1 − s 0.091778) / 1.5² with s the `fresnel_scale`; F is 0.04 along the normal and 0.089195 at 60°.
+#[test]
+fn a_coat_deepens_the_colour_below() {
+    let ground = |albedo: f64, scale: f64| {
+        let r = 1.0 - (1.0 - scale * 0.091_778) / 2.25;
+        albedo * (1.0 - r) / (1.0 - albedo * r)
+    };
+    let coat = |more: &str| {
+        format!("<coating><substrate_material_name>below</substrate_material_name>{more}</coating>")
+    };
+    for (albedo, more, degrees, fresnel) in [
+        (0.5, "", 0.0, 0.04),
+        (
+            0.5,
+            "<ior><constant>1.5</constant></ior><interference>false</interference><thickness><constant>1</constant></thickness>",
+            60.0,
+            0.089_195,
+        ),
+        (1.0, "", 0.0, 0.04),
+        (0.5, "<fresnel_scale><constant>0</constant></fresnel_scale>", 0.0, 0.0),
+    ] {
+        let scene = sheet_with(&coat(more), degrees, "", &grey("below", albedo));
+        let scale = if fresnel == 0.0 { 0.0 } else { 1.0 };
+        let expected = fresnel + ground(albedo, scale) * (1.0 - fresnel);
+        assert_near(
+            &format!("{albedo}, {more}, {degrees}°"),
+            measure(&scene, 8, 400).luminance(),
+            RADIANCE * NITS_PER_UNIFORM * expected,
+            5e-3,
+        );
+    }
+}

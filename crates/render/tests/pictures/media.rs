@@ -3,8 +3,8 @@
 use super::common::judge::{NITS_PER_UNIFORM, assert_is, assert_near};
 use super::common::shapes::{Mesh, model};
 use super::common::text::{
-    ONE_PIXEL, background, basic, flat_camera, henyey_greenstein, medium, scattering, scene_file, settings,
-    specular, sphere, uniform,
+    ONE_PIXEL, background, basic, flat_camera, grey, henyey_greenstein, medium, scattering, scene_file,
+    settings, specular, sphere, uniform,
 };
 use super::common::{MODES, Measured, luminance_in_mode, measure, scene};
 use indigo_scene::Scene;
@@ -64,6 +64,25 @@ fn absorption_falls_off_with_the_exponential_of_the_way() {
     let parts = [absorbing("m", 10, 1.0, 10.0), specular("surface", "m"), cube(0.05, "surface")];
     let scene = in_uniform_light([0.0, -5.0, 0.0], 0.001, &parts);
     assert_luminance("10/m over 0.1 m", &measure(&scene, 8, 64), (-1.0f64).exp());
+}
+
+/// The same slantwise through a plate so large that rays leave its triangles by more than a hundredth of its thickness.
+#[test]
+fn the_way_through_a_wide_plate_is_not_shortened_by_rounding() {
+    let (half, thickness, cos) = (300.0, 0.1, 0.5f64);
+    let plate =
+        Mesh::cube(1.0).placed([half, 0.0, 0.0, 0.0, half, 0.0, 0.0, 0.0, thickness / 2.0], 1.0, [0.0; 3]);
+    let scene = scene(&scene_file(&[
+        settings(8, ONE_PIXEL),
+        flat_camera([0.0, 0.0, 2.0], [0.0, (1.0 - cos * cos).sqrt(), -cos], 1e-5),
+        background(&uniform(AROUND)),
+        absorbing("m", 10, 1.0, 10.0),
+        specular("surface", "m"),
+        plate.text("plate", "surface"),
+        model("plate"),
+    ]));
+    let expected = (-10.0 * thickness / cos).exp();
+    assert_luminance("10/m over 0.2 m", &measure(&scene, 16, 64), expected);
 }
 
 /// A plane-parallel plate seen straight on, with all reflections inside: R = ((η - 1)/(η + 1))², e = e^(-σd),
@@ -289,6 +308,28 @@ fn a_glazed_white_tile_under_water_is_not_to_be_told_from_the_water() {
         let measured = luminance_in_mode(&mut scene, *mode, 16, 96);
         let expected = AROUND * NITS_PER_UNIFORM * 1.333 * 1.333;
         assert_near(&mode.to_string(), &measured, expected, 1.5e-3);
+    }
+}
+
+/// A coat throws light back to its ground by its index over that of the medium outside: one of water's own index is not
+/// there under water.
+#[test]
+fn a_coat_of_water_is_not_there_under_water() {
+    let glaze = format!(
+        "{}<material><name>glaze</name><coating><substrate_material_name>ground</substrate_material_name><ior>1.333</ior>\
+         </coating></material>",
+        grey("ground", 0.5)
+    );
+    let tile = Mesh::cube(0.3).text("cube", "glaze") + &model("cube");
+    let water = clear("w", 10, 1.333) + &specular("surface", "w");
+    let parts = [glaze, water, tile, sphere([0.0; 3], 5.0, "surface")];
+    let mut scene = in_uniform_light([0.0, -2.0, 0.0], 0.05, &parts);
+    for mode in &MODES[..2] {
+        let measured = luminance_in_mode(&mut scene, *mode, 16, 96);
+        // The ball's surface reflects R of what leaves its middle back to it: I = n² L (1 − R) + R I / 2.
+        let r = (0.333f64 / 2.333).powi(2);
+        let expected = 0.5 * AROUND * NITS_PER_UNIFORM * 1.333 * 1.333 * (1.0 - r) / (1.0 - 0.5 * r);
+        assert_near(&mode.to_string(), &measured, expected, 3e-3);
     }
 }
 

@@ -280,6 +280,7 @@ mod tests {
                 lambda: &lambda,
                 interface: Interface::NONE,
                 choice,
+                is_front: true,
             };
             let n = 4096;
             let unseen =
@@ -314,6 +315,7 @@ mod tests {
             lambda: &lambda,
             interface: Interface::NONE,
             choice,
+            is_front: true,
         };
         let chain = &materials[chain as usize];
         assert_eq!(chain.unseen_share(&at(0.0), &uv), 0.125);

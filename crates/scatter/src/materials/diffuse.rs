@@ -75,6 +75,11 @@ impl Diffuse {
         Self { albedo: Reflectance::Spectrum(Spectrum::rgb_reflectance([0.8, 0.0, 0.8])) }
     }
 
+    /// The fraction of light that it scatters.
+    pub(super) fn albedo(&self) -> &Reflectance {
+        &self.albedo
+    }
+
     /// From its element.
     pub fn build(node: &Node, resources: &mut dyn MaterialResources) -> Self {
         let albedo =

@@ -67,6 +67,11 @@ pub struct DiffuseTransmitter {
 }
 
 impl DiffuseTransmitter {
+    /// Of a fraction that is let through.
+    pub(super) fn new(albedo: Reflectance) -> Self {
+        Self { albedo }
+    }
+
     /// From its element.
     pub fn build(node: &Node, resources: &mut dyn MaterialResources) -> Self {
         Self {

@@ -73,6 +73,11 @@ pub struct GlossyTransparent {
 }
 
 impl GlossyTransparent {
+    /// The surface of a medium, of some facets.
+    pub(super) fn new(medium: MediumId, facets: Microfacets) -> Self {
+        Self { medium, facets }
+    }
+
     /// From its element.
     pub fn build(node: &Node, resources: &mut dyn MaterialResources) -> Self {
         let medium = resources.medium(node, INTERNAL_MEDIUM_NAME.name);

@@ -1,9 +1,12 @@
 //! Materials: one file each, and one line each in the list below.
 
 pub mod blend;
+pub mod coating;
 mod declare;
 pub mod diffuse;
 pub mod diffuse_transmitter;
+pub mod double_sided_thin;
+pub mod fast_sss;
 pub mod fields;
 pub mod glossy_transparent;
 pub mod later;
@@ -36,6 +39,8 @@ pub struct MaterialContext<'a> {
     pub interface: Interface,
     /// A number in [0, 1) that chooses among the materials of a blend.
     pub choice: Real,
+    /// Whether the surface is seen from its front.
+    pub is_front: bool,
 }
 
 /// The indices of refraction on the two sides of a surface, for each wavelength.
@@ -89,6 +94,10 @@ pub trait MaterialResources {
     fn complex_index(&mut self, node: &Node, field: &str) -> [Spectrum; 2];
     /// The material that a field names; whatever is wrong with it has been reported.
     fn material(&mut self, node: &Node, field: &str) -> MaterialId;
+    /// The same of a material below another, which may emit.
+    fn substrate(&mut self, node: &Node, field: &str) -> MaterialId {
+        self.material(node, field)
+    }
     /// A material that was built before.
     fn built(&self, id: MaterialId) -> &Material;
     /// The medium that a field names; whatever is wrong with it has been reported.
@@ -142,7 +151,7 @@ impl<K: SurfaceKind> Surface<K> {
 /// A line `name => Material / Leaf` registers a material of the file `name.rs`: `Material` is a
 /// [`SurfaceKind`] and has `build(&Node, &mut dyn MaterialResources)` and `leaf(&MaterialContext, uv)`, which
 /// is not asked where the surface is unseen; `Leaf` is a [`Scatter`].
-/// `blend` and `null_material` have no leaves, and stand beside the list.
+/// `blend`, `double_sided_thin` and `null_material` have no leaves, and stand beside the list.
 macro_rules! registry {
     ($($name:ident => $material:ident / $leaf:ident,)*) => {
         /// The kinds of material.
@@ -153,9 +162,9 @@ macro_rules! registry {
             $(&$name::BLOCK,)*
             &blend::BLOCK,
             &null_material::BLOCK,
-            &later::COATING,
-            &later::DOUBLE_SIDED_THIN,
-            &later::FAST_SSS,
+            &double_sided_thin::BLOCK,
+            &coating::BLOCK,
+            &fast_sss::BLOCK,
             &later::SUM,
             &later::SUNSKY,
         ];
@@ -167,6 +176,8 @@ macro_rules! registry {
             Null,
             /// Is one material or another.
             Blend(blend::Blend),
+            /// Is one material or another, and not the same on both sides.
+            Sheet(double_sided_thin::DoubleSidedThin),
             $(#[doc = concat!("See [`", stringify!($name), "`].")] $material(Surface<$name::$material>),)*
         }
 
@@ -183,13 +194,18 @@ macro_rules! registry {
                     let kind = $name::$material::build(node, resources);
                     return Self::$material(Surface::new(kind, node, resources));
                 })*
-                if std::ptr::eq(node.block, &raw const later::FAST_SSS) {
-                    let kind = phong::Phong::build(node, resources);
-                    return Self::Phong(Surface::new(kind, node, resources));
+                if std::ptr::eq(node.block, &raw const coating::BLOCK) {
+                    return coating::build(node, resources);
+                }
+                if std::ptr::eq(node.block, &raw const fast_sss::BLOCK) {
+                    return fast_sss::build(node, resources);
                 }
                 if std::ptr::eq(node.block, &raw const later::SUNSKY) {
                     node.disregard();
                     return Self::black();
+                }
+                if std::ptr::eq(node.block, &raw const double_sided_thin::BLOCK) {
+                    return Self::Sheet(double_sided_thin::DoubleSidedThin::build(node, resources));
                 }
                 if std::ptr::eq(node.block, &raw const blend::BLOCK) {
                     return Self::Blend(blend::Blend::build(node, resources));
@@ -198,31 +214,34 @@ macro_rules! registry {
                 Self::Null
             }
 
-            /// What a blend is at a point by the context's choice: a material that is not a blend.
+            /// What a blend or sheet is at a point by the context's choice: a material that is neither.
             #[inline]
             pub fn chosen<'a>(&'a self, context: &MaterialContext<'a>, uv: &impl Fn(u32) -> Vec2) -> &'a Self {
                 let (mut material, mut choice) = (self, blend::Choice::new(context.choice));
-                while let Self::Blend(blend) = material {
-                    material = &context.materials[blend.choose(context, uv, &mut choice) as usize];
+                loop {
+                    material = match material {
+                        Self::Blend(b) => &context.materials[b.choose(context, uv, &mut choice) as usize],
+                        Self::Sheet(sheet) => sheet.choose(context, &mut choice),
+                        other => return other,
+                    };
                 }
-                material
             }
 
-            /// The heights that bend the shading normal; a blend has none of its own.
+            /// The heights that bend the shading normal; a blend or sheet has none of its own.
             #[inline]
             pub fn bump_map(&self) -> Option<TextureId> {
                 match self {
-                    Self::Null | Self::Blend(_) => None,
+                    Self::Null | Self::Blend(_) | Self::Sheet(_) => None,
                     $(Self::$material(m) => m.bump,)*
                 }
             }
 
             /// The scattering model at a point, whose texture coordinates `uv` gives for each set;
-            /// `None` where light passes as if nothing were there. A blend is to be [chosen](Self::chosen) first.
+            /// `None` where light passes as if nothing were there. Of a blend or sheet one is to be [chosen](Self::chosen) first.
             #[inline]
             pub fn leaf(&self, context: &MaterialContext, uv: impl Fn(u32) -> Vec2) -> Option<Leaf> {
                 match self {
-                    Self::Null | Self::Blend(_) => None,
+                    Self::Null | Self::Blend(_) | Self::Sheet(_) => None,
                     $(Self::$material(m) if m.is_unseen(&context.interface) => None,)*
                     $(Self::$material(m) => Some(Leaf::$material(m.kind.leaf(context, uv))),)*
                 }
@@ -232,7 +251,7 @@ macro_rules! registry {
             #[inline]
             pub fn internal_medium(&self) -> Option<MediumId> {
                 match self {
-                    Self::Null => None,
+                    Self::Null | Self::Sheet(_) => None,
                     Self::Blend(blend) => blend.internal_medium(),
                     $(Self::$material(m) => m.kind.internal_medium(),)*
                 }
@@ -241,7 +260,7 @@ macro_rules! registry {
             /// See [`SurfaceKind::immerse`].
             pub fn immerse(&mut self, media: &[Medium]) {
                 match self {
-                    Self::Null | Self::Blend(_) => {}
+                    Self::Null | Self::Blend(_) | Self::Sheet(_) => {}
                     $(Self::$material(m) => m.kind.immerse(media),)*
                 }
             }
@@ -251,6 +270,7 @@ macro_rules! registry {
             pub fn unseen_constituents(&self) -> u32 {
                 match self {
                     Self::Null => 1,
+                    Self::Sheet(_) => 0,
                     Self::Blend(blend) => blend.unseen_constituents(),
                     $(Self::$material(m) => u32::from(m.kind.internal_medium().is_some()),)*
                 }
@@ -259,7 +279,7 @@ macro_rules! registry {
             /// See [`SurfaceKind::may_transmit`].
             pub fn may_transmit(&self) -> bool {
                 match self {
-                    Self::Null => true,
+                    Self::Null | Self::Sheet(_) => true,
                     Self::Blend(blend) => blend.may_transmit(),
                     $(Self::$material(m) => m.kind.may_transmit(),)*
                 }
@@ -271,6 +291,7 @@ macro_rules! registry {
             pub fn unseen_share(&self, context: &MaterialContext, uv: &impl Fn(u32) -> Vec2) -> Real {
                 match self {
                     Self::Null => 1.0,
+                    Self::Sheet(_) => 0.0,
                     Self::Blend(blend) => blend.unseen_share(context, uv),
                     $(Self::$material(m) => if m.is_unseen(&context.interface) { 1.0 } else { 0.0 },)*
                 }

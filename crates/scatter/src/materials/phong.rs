@@ -22,7 +22,7 @@
 mod declare;
 
 pub use declare::BLOCK;
-pub(super) use declare::FIELDS;
+pub(super) use declare::FAST_SSS_FIELDS;
 
 use super::fields::disregard_exponents;
 use super::{MaterialContext, MaterialResources, SurfaceKind};
@@ -54,8 +54,9 @@ pub struct Phong {
 /// What the facets are of.
 #[derive(Clone, Debug)]
 enum Kind {
-    /// A dielectric of an index of refraction over a diffuse ground.
-    Coat { eta: Real, ground: Reflectance },
+    /// A dielectric of an index of refraction over a diffuse ground. Where the ground's reflectance is as it is without
+    /// the coat, the part of its light that the coat lets out; it is as it is seen through the coat otherwise.
+    Coat { eta: Real, ground: Reflectance, lets_out: Option<ByIndex<Real>> },
     /// A metal of a complex index n + ik, with its average reflectance.
     Measured { n: Spectrum, k: Spectrum, average: ByIndex<Spectrum> },
     /// A metal of a reflectance along its normal, whatever lies outside.
@@ -96,10 +97,36 @@ impl Phong {
         } else {
             let ground = ["albedo_texture", "diffuse_albedo_spectrum"];
             let ground = Reflectance::build(node, ground, Some("diffuse"), resources);
-            Kind::Coat { eta: Real::from_f64(index_of_coat(node, resources.sink())), ground }
+            let eta = Real::from_f64(index_of_coat(node, resources.sink()));
+            Kind::Coat { eta, ground, lets_out: None }
         };
         let gloss = Gloss::build(node, resources);
-        let fresnel_scale = Real::from_f64(node.real("fresnel_scale").min(1.0));
+        Self::of(kind, gloss, scale_of(node))
+    }
+
+    /// A coat of an index, as rough as an element says, over a ground whose reflectance is as it is without the coat.
+    pub(super) fn coat(
+        node: &Node,
+        eta: Real,
+        ground: Reflectance,
+        resources: &mut dyn MaterialResources,
+    ) -> Self {
+        let gloss = match node.node("roughness_map") {
+            Some(map) => {
+                node.disregard_field("roughness");
+                Gloss::Widths(resources.shares(map))
+            }
+            // Smooth where it says nothing.
+            None => Gloss::Uniform(Microfacets::of_width(Real::from_f64(
+                node.opt_real("roughness").map_or(0.0, |width| width.value),
+            ))),
+        };
+        let scale = scale_of(node);
+        let lets_out = ByIndex::new(&[1.0], |outside| let_out(eta / outside, scale));
+        Self::of(Kind::Coat { eta, ground, lets_out: Some(lets_out) }, gloss, scale)
+    }
+
+    fn of(kind: Kind, gloss: Gloss, fresnel_scale: Real) -> Self {
         Self { rows: kind.rows(gloss, fresnel_scale, &[1.0]), kind, gloss, fresnel_scale }
     }
 
@@ -120,8 +147,14 @@ impl Phong {
         let (lambda, outside, scale) = (context.lambda, context.interface.above, self.fresnel_scale);
         let rows = self.rows_at(facets, outside);
         let (fresnel, base) = match &self.kind {
-            Kind::Coat { eta, ground } => {
-                (Fresnel::Coat { eta: SampledSpectrum::splat(*eta) / outside }, ground.eval(context, uv))
+            Kind::Coat { eta, ground, lets_out } => {
+                let mut base = ground.eval(context, uv);
+                if let Some(lets_out) = lets_out {
+                    let (low, high, mix) = lets_out.around(outside);
+                    let part = SampledSpectrum::splat(*low) + mix * (high - low);
+                    base = base * part / (SampledSpectrum::ONE - base + base * part);
+                }
+                (Fresnel::Coat { eta: SampledSpectrum::splat(*eta) / outside }, base)
             }
             Kind::Measured { n, k, average } => {
                 let (low, high, mix) = average.around(outside);
@@ -155,6 +188,18 @@ impl Phong {
     }
 }
 
+/// What multiplies a reflectance, at most 1.
+fn scale_of(node: &Node) -> Real {
+    Real::from_f64(node.real("fresnel_scale").min(1.0))
+}
+
+/// The part of a diffuse ground's light that a coat of a relative index lets out at once, at most 1; the rest is thrown back to
+/// the ground. By reciprocity it is (1 − R̄) / η² for a coat that reflects R̄ of even light from outside.
+fn let_out(eta: Real, scale: Real) -> Real {
+    let outside = diffuse_average(|cos| dielectric(cos, eta).reflectance * scale);
+    Real::from_f64(((1.0 - outside) / (eta * eta).to_f64()).min(1.0))
+}
+
 impl SurfaceKind for Phong {
     fn immerse(&mut self, media: &[Medium]) {
         let indices = immersion::indices(media);
@@ -166,7 +211,11 @@ impl SurfaceKind for Phong {
             *average = ByIndex::new(&indices, |outside| average_of_metal(n, k, outside));
         }
         // Those of white facets are the same everywhere.
-        if let Kind::Coat { .. } = self.kind {
+        if let Kind::Coat { eta, lets_out, .. } = &mut self.kind {
+            let (eta, scale) = (*eta, self.fresnel_scale);
+            if let Some(lets_out) = lets_out {
+                *lets_out = ByIndex::new(&indices, |outside| let_out(eta / outside, scale));
+            }
             self.rows = self.kind.rows(self.gloss, self.fresnel_scale, &indices);
         }
     }

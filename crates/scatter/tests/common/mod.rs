@@ -101,7 +101,8 @@ impl Example {
         let Interface { above, below } = interface(self.outside, lambda);
         let interface =
             if is_inside { Interface { above: below, below: above } } else { Interface { above, below } };
-        let context = MaterialContext { textures: &[], materials: &[], lambda, interface, choice: 0.5 };
+        let context =
+            MaterialContext { textures: &[], materials: &[], lambda, interface, choice: 0.5, is_front: true };
         self.material.leaf(&context, |_| Vec2::new(0.3, 0.6)).expect("a material that does something")
     }
 }

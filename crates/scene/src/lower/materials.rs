@@ -6,7 +6,8 @@
 mod resources;
 mod rounds;
 
-use super::emission::{self, Emission, Layers};
+use super::emission::{self, Emission};
+use super::light_layers::{Layer, Layers};
 use super::media::MediumTable;
 use super::names::Names;
 use super::textures::TextureTable;
@@ -16,7 +17,6 @@ use crate::settings::Settings;
 use indigo_decl::Node;
 use indigo_diag::{Diagnostic, Sink, Span, Spanned};
 use indigo_scatter::{Material, MaterialId, MaterialResources, Medium, MediumId};
-use indigo_spectrum::Spectrum;
 use indigo_texture::Texture;
 use resources::Resources;
 use std::collections::{HashMap, HashSet};
@@ -103,7 +103,7 @@ impl<'a> MaterialTable<'a> {
         };
         // What it emits is the lamps' business.
         emission::disregard(kind);
-        let (id, uses_textures) = if let Some(other) = stand_in(kind) {
+        let (id, uses_textures) = if let Some(other) = self.stand_in_of(kind) {
             report_stand_in(kind, &other, context.sink);
             let id = self.get(&other.value, other.span, uv, context);
             (id, !self.plain.contains_key(self.names.meant(&other.value)))
@@ -120,6 +120,21 @@ impl<'a> MaterialTable<'a> {
             self.plain.insert(name.value.clone(), id);
         }
         id
+    }
+
+    /// The material that stands in for a kind which is not rendered as it is meant: of a coat over anything but `diffuse`
+    /// what is below.
+    fn stand_in_of(&self, kind: &Node) -> Option<Spanned<String>> {
+        if kind.block.name != "coating" {
+            return stand_in(kind);
+        }
+        let below = kind.opt_text("substrate_material_name")?;
+        let is_rendered = self.kind_of(&below.value).is_none_or(|below| below.block.name == "diffuse");
+        if is_rendered {
+            return None;
+        }
+        kind.disregard();
+        Some(below)
     }
 
     /// What takes the place of a material that cannot be built.
@@ -140,16 +155,21 @@ impl<'a> MaterialTable<'a> {
         self.emissions.get(&name)?.as_ref()
     }
 
-    /// What the layer of a kind of material multiplies its light by; that of layer 0 where the kind names none.
-    pub(super) fn layer_factor(&self, kind: &Node) -> Option<Spectrum> {
-        self.layers.factor(if kind.block.declares("layer") { kind.int("layer") } else { 0 })
+    /// The layer of a number.
+    pub(super) fn layer(&self, number: i64) -> Layer {
+        self.layers.of(number)
+    }
+
+    /// All layers.
+    pub(super) fn layers(&self) -> &Layers {
+        &self.layers
     }
 
     /// The kind of a material, or of the one that stands in for it.
     fn kind_that_counts(&self, name: &str) -> Option<&'a Node> {
         let mut kind = self.names.get(name)?.alternative()?;
         let mut seen = HashSet::new();
-        while let Some(other) = stand_in(kind) {
+        while let Some(other) = shining_part(kind) {
             // Materials that lead back to themselves are reported elsewhere.
             if !seen.insert(self.names.meant(&other.value).to_owned()) {
                 break;
@@ -256,14 +276,17 @@ fn key(name: &str, uv: UvSets) -> Key {
     (name.to_owned(), sets)
 }
 
+/// The material whose emission is that of a kind which has none of its own.
+fn shining_part(kind: &Node) -> Option<Spanned<String>> {
+    match kind.block.name {
+        "coating" => kind.opt_text("substrate_material_name"),
+        _ => stand_in(kind),
+    }
+}
+
 /// The material that stands in for a kind which is not rendered as it is meant.
 fn stand_in(kind: &Node) -> Option<Spanned<String>> {
     match kind.block.name {
-        "coating" => kind.opt_text("substrate_material_name"),
-        "double_sided_thin" => {
-            kind.disregard_field("back_material_name");
-            kind.opt_text("front_material_name")
-        }
         "sum" => {
             let mut parts = kind.nodes("mat");
             let first = parts.next();
@@ -286,7 +309,7 @@ fn report_stand_in(kind: &Node, other: &Spanned<String>, sink: &mut Sink) {
 }
 
 fn report_stand_in_of_kind(kind: &Node, sink: &mut Sink) {
-    if kind.block.name == "fast_sss" {
+    if kind.block.name == "fast_sss" && !kind.has("internal_medium_name") {
         let message = "<fast_sss> is of a later format version (4.0) and not rendered: <phong> stands in";
         sink.push_or_count(Diagnostic::warning(codes::STANDS_IN, kind.span, message));
     }

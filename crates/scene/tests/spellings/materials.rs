@@ -169,6 +169,55 @@ fn roughness_is_the_width_that_an_exponent_stands_for() {
 }
 
 #[test]
+fn quick_scattering_below_the_surface_is_done_by_its_medium() {
+    let media = "<medium><name>glass</name><uid>3</uid><basic><ior>1.5</ior></basic></medium>";
+    let rough = "<roughness><constant>0.5</constant></roughness>";
+    let frosted = format!(
+        "<glossy_transparent><internal_medium_name>glass</internal_medium_name>{rough}</glossy_transparent>"
+    );
+    let fast =
+        |more: &str| format!("<fast_sss><internal_medium_uid>3</internal_medium_uid>{more}</fast_sss>");
+    let [old, new, other] = [frosted, fast(rough), fast("<roughness><constant>0.4</constant></roughness>")]
+        .map(|kind| of(&kind) + media);
+    assert_same_told(&NOT_CLOSED, [&old, &new, &other]);
+    let albedo = "<albedo><constant><uniform><value>0.5</value></uniform></constant></albedo>";
+    let coloured = of(&fast(&format!("{rough}{albedo}"))) + media;
+    let told = ["W0103 <diffuse_albedo_spectrum> has no effect beside <internal_medium_name>", NOT_CLOSED[0]];
+    assert_same_told(&told, [&old, &coloured, &other]);
+}
+
+#[test]
+fn thin_sheets_and_coats_take_their_numbers_in_wrappers() {
+    let parts = "<material><name>a</name><uid>7</uid><diffuse><albedo_spectrum><uniform><value>0.3</value></uniform></albedo_spectrum></diffuse></material>";
+    let thin = |sides: &str, through: &str| {
+        let kind = format!("<double_sided_thin>{sides}<r_f>0.25</r_f>{through}</double_sided_thin>");
+        of(&kind) + parts
+    };
+    let half = "<transmittance_spectrum><uniform><value>0.5</value></uniform></transmittance_spectrum>";
+    let wrapped = "<transmittance><constant><uniform><value>0.5</value></uniform></constant></transmittance>";
+    let by_name = "<front_material_name>a</front_material_name>";
+    let by_uid = "<front_material_uid>7</front_material_uid><back_material_uid>7</back_material_uid>";
+    assert_same([&thin(by_name, half), &thin(by_uid, wrapped), &thin(by_name, "")]);
+    let mirror = "<medium><name>glass</name><basic><ior>1.5</ior></basic></medium><material><name>mirror</name><specular><internal_medium_name>glass</internal_medium_name><transparent>false</transparent></specular></material>";
+    let faulty = thin("<front_material_name>mirror</front_material_name>", "") + mirror;
+    assert!(
+        findings(&loaded(&faulty)).iter().any(|f| f.1.contains("a thin sheet can neither let light through"))
+    );
+    let glossy = thin("<front_material_name>a</front_material_name>", "<ior><constant>1.5</constant></ior>");
+    assert!(findings(&loaded(&glossy)).iter().any(|f| f.1.starts_with("W0102 <ior> in <double_sided_thin>")));
+    let coat = |below: &str, more: &str| of(&format!("<coating>{below}{more}</coating>")) + parts;
+    let by_name = "<substrate_material_name>a</substrate_material_name>";
+    assert_same([
+        &coat(by_name, "<ior>1.6</ior><roughness>0.2</roughness>"),
+        &coat(
+            "<substrate_material_uid>7</substrate_material_uid>",
+            "<ior><constant>1.6</constant></ior><roughness><constant>0.2</constant></roughness>",
+        ),
+        &coat(by_name, "<ior>1.6</ior>"),
+    ]);
+}
+
+#[test]
 fn a_fresnel_scale_of_one_changes_nothing_and_another_does() {
     let phong = |more: &str| format!("<phong><ior>1.5</ior><exponent>6</exponent>{more}</phong>");
     let scale = |v: &str| phong(&format!("<fresnel_scale><constant>{v}</constant></fresnel_scale>"));

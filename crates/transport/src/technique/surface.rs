@@ -5,7 +5,7 @@ use super::vertex::Vertex;
 use indigo_geom::SurfacePoint;
 use indigo_light::EmitterHit;
 use indigo_math::{Real, Vec3};
-use indigo_scatter::{Material, MediumStack, ShadingPoint, bumped_normal};
+use indigo_scatter::{Material, MaterialContext, MediumStack, ShadingPoint, bumped_normal};
 use indigo_scene::Scene;
 
 /// What a surface is to a path.
@@ -42,6 +42,7 @@ pub(super) fn shade(
         return Surface::Unseen(below);
     }
     let context = scene.material_context(world.lambda, world.interface(&above, &below), choice);
+    let context = MaterialContext { is_front: wo.dot(at.n_g) > 0.0, ..context };
     let uv = |set| scene.accel.uv(at, set);
     let material = material.chosen(&context, &uv);
     match material.leaf(&context, uv) {

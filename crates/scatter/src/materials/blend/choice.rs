@@ -25,7 +25,7 @@ impl Choice {
 
     /// True with the probability `share`, whatever was chosen before.
     #[inline]
-    pub(super) fn is_within(&mut self, share: Real) -> bool {
+    pub(in crate::materials) fn is_within(&mut self, share: Real) -> bool {
         if self.width < LEAST_WIDTH {
             self.scramble();
         }

@@ -66,8 +66,14 @@ impl MaterialResources for Resources<'_, '_, '_, '_, '_> {
     fn material(&mut self, node: &Node, field: &str) -> MaterialId {
         let name = node.text(field);
         if self.table.emission(&name.value, self.context.sink).is_some() {
-            emission::warn_of_darkness("a blend", name.span, self.context);
+            let what = if node.block.name == "blend" { "a blend" } else { "a sheet" };
+            emission::warn_of_darkness(what, name.span, self.context);
         }
+        self.substrate(node, field)
+    }
+
+    fn substrate(&mut self, node: &Node, field: &str) -> MaterialId {
+        let name = node.text(field);
         let id = self.table.get(&name.value, name.span, self.uv, self.context);
         self.uses_textures |= !self.table.plain.contains_key(self.table.names.meant(&name.value));
         id
