@@ -187,7 +187,10 @@ fn igi() {
         let mut file = [head, &vec![0; FREE.len()], tail].concat();
         for _ in 0..2 {
             let read = igi::read(&file);
-            assert_eq!(igi::IgiFile::load(&*file, 0).unwrap().develop().is_ok(), read.is_ok());
+            assert_eq!(
+                igi::IgiFile::load(&*file, 0).unwrap().develop(&indigo_film::LightMix::default()).is_ok(),
+                read.is_ok()
+            );
             if let Ok(saved) = read {
                 let pixels = saved.film.size.internal_pixels();
                 assert!(saved.film.layers.iter().all(|l| l.sums.len() == pixels));

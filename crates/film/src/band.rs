@@ -51,10 +51,11 @@ fn add_counts(into: &mut [f64], from: &[f32]) {
 }
 
 /// Adds a layer's radiance to `out` (XYZ and alpha), and clears `missing` where the layer says
-/// that a pixel has a sample. All slices cover the same pixels.
+/// that a pixel has a sample. All slices cover the same pixels. `gain` multiplies the light, but not
+/// what it covers.
 pub(crate) fn develop_layer(
-    kind: LayerKind,
-    totals: &Totals,
+    (kind, totals): (LayerKind, &Totals),
+    gain: f64,
     internal_pixels: usize,
     (sums, counts): (&[[f64; 4]], &[f64]),
     out: &mut [[f32; 4]],
@@ -64,7 +65,7 @@ pub(crate) fn develop_layer(
         LayerKind::PerPixel => {
             for (((sum, &count), pixel), missing) in sums.iter().zip(counts).zip(out).zip(missing) {
                 if count > 0.0 {
-                    accumulate(pixel, sum, 1.0 / count);
+                    accumulate(pixel, sum, 1.0 / count, gain);
                     *missing = false;
                 }
             }
@@ -72,15 +73,16 @@ pub(crate) fn develop_layer(
         LayerKind::PerScreen => {
             let scale = totals.screen_scale(internal_pixels);
             for (sum, pixel) in sums.iter().zip(out) {
-                accumulate(pixel, sum, scale);
+                accumulate(pixel, sum, scale, gain);
             }
         }
     }
 }
 
 #[inline]
-fn accumulate(pixel: &mut [f32; 4], sum: &[f64; 4], scale: f64) {
-    for (p, s) in pixel.iter_mut().zip(sum) {
+fn accumulate(pixel: &mut [f32; 4], sum: &[f64; 4], scale: f64, gain: f64) {
+    let light = scale * gain;
+    for ((p, s), scale) in pixel.iter_mut().zip(sum).zip([light, light, light, scale]) {
         *p += (s * scale) as f32;
     }
 }

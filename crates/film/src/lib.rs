@@ -16,6 +16,7 @@
 //! | [`Filter`], [`FilmFilter`] | the splat filter: spreading splats, and drawing camera samples |
 //! | [`Sensor`] | spectrum to XYZ, the only place where that happens |
 //! | [`FilmDelta`], [`MasterFilm`], [`FilmState`] | gathering, sharing and keeping the sums |
+//! | [`LightMix`] | groups of lights, and how bright each is in the picture |
 //! | [`FirstHit`] | what a pixel shows, for denoisers and compositing |
 //! | [`XyzImage`] | the film developed: radiance per internal pixel |
 //! | [`SavedFilm`], [`igi`] | a film with where it comes from, and as a file |
@@ -30,6 +31,7 @@ mod first_hit;
 pub mod igi;
 mod layer;
 mod master;
+pub mod mix;
 mod profile;
 mod record;
 mod sensor;
@@ -45,6 +47,7 @@ pub use filter::Filter;
 pub use first_hit::FirstHit;
 pub use layer::{Layer, LayerKind, Totals};
 pub use master::MasterFilm;
+pub use mix::{LightGroup, LightMix};
 pub use record::{DevelopedFilm, FilmRecord, Mismatch, Run, SavedFilm};
 pub use sensor::Sensor;
 pub use share::{Counted, Share, is_count};

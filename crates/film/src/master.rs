@@ -2,7 +2,7 @@
 
 use crate::band::{BAND_ROWS, RowsMut, add_bricks, band_count, develop_layer};
 use crate::state::check_fit;
-use crate::{FilmDelta, FilmError, FilmSize, FilmState, Layer, LayerKind, Totals, XyzImage};
+use crate::{FilmDelta, FilmError, FilmSize, FilmState, Layer, LayerKind, LightMix, Totals, XyzImage};
 use std::sync::{Mutex, MutexGuard, PoisonError, RwLock, TryLockError};
 
 /// A film that workers merge their deltas into at the same time.
@@ -41,12 +41,12 @@ struct Tally {
 impl MasterFilm {
     /// A film without samples, with layers of these kinds and names. Errors: the system has not as much
     /// memory.
-    pub fn new(size: FilmSize, layers: &[(LayerKind, &str)]) -> Result<Self, FilmError> {
+    pub fn new(size: FilmSize, layers: &[(LayerKind, impl AsRef<str>)]) -> Result<Self, FilmError> {
         let width = size.internal_width() as usize;
         let height = size.internal_height() as usize;
         let pixels = |band: usize| width * BAND_ROWS.min(height - band * BAND_ROWS);
         let band = |band: usize| {
-            let layers = layers.iter().map(|&(kind, _)| {
+            let layers = layers.iter().map(|(kind, _)| {
                 let (sums, counts) = (pixels(band), kind.count_slots(pixels(band)));
                 Some(BandLayer { sums: reserved(sums)?, counts: reserved(counts)? })
             });
@@ -69,7 +69,7 @@ impl MasterFilm {
         }
         Ok(Self {
             size,
-            layers: layers.iter().map(|&(kind, name)| (kind, name.to_owned())).collect(),
+            layers: layers.iter().map(|(kind, name)| (*kind, name.as_ref().to_owned())).collect(),
             gate: RwLock::new(()),
             bands: bands.into_iter().map(Mutex::new).collect(),
             tally: Mutex::new(Tally { layers: vec![Totals::default(); layers.len()], refused: 0 }),
@@ -192,18 +192,19 @@ impl MasterFilm {
         tally.refused == 0 && tally.layers.iter().all(|totals| *totals == Totals::default())
     }
 
-    /// The film's radiance as it stands, without copying its sums; see [`FilmState::develop`].
+    /// The film's radiance as it stands, without copying its sums; see [`FilmState::develop_mixed`].
     /// Merges wait meanwhile, and so must not themselves be tasks of the rayon pool that this
     /// runs on, which is the caller's.
-    pub fn develop(&self) -> XyzImage {
+    pub fn develop(&self, mix: &LightMix) -> XyzImage {
         let _gate = self.gate.write().unwrap_or_else(PoisonError::into_inner);
         let totals = lock(&self.tally).layers.clone();
         let counted = self.kinds().any(|kind| kind == LayerKind::PerPixel);
+        let gains: Vec<f64> = self.layers.iter().map(|(_, name)| mix.gain(name)).collect();
         XyzImage::from_bands(self.size, counted, |index, out, missing| {
             let band = lock(&self.bands[index]);
-            for ((kind, totals), rows) in self.kinds().zip(&totals).zip(&band.layers) {
+            for (((kind, totals), rows), gain) in self.kinds().zip(&totals).zip(&band.layers).zip(&gains) {
                 let rows = (&*rows.sums, &*rows.counts);
-                develop_layer(kind, totals, self.size.internal_pixels(), rows, out, missing);
+                develop_layer((kind, totals), *gain, self.size.internal_pixels(), rows, out, missing);
             }
         })
     }

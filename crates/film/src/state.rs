@@ -1,7 +1,7 @@
 //! A film as plain data: what is saved, resumed, merged and developed.
 
 use crate::band::{BAND_ROWS, RowsMut, add_bricks, develop_layer};
-use crate::{FilmDelta, FilmError, FilmSize, Layer, LayerKind, Totals, XyzImage};
+use crate::{FilmDelta, FilmError, FilmSize, Layer, LayerKind, LightMix, Totals, XyzImage};
 
 /// All sums of a film in double precision.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,9 +16,11 @@ pub struct FilmState {
 
 impl FilmState {
     /// A film without samples, with layers of these kinds and names.
-    pub fn new(size: FilmSize, layers: &[(LayerKind, &str)]) -> Self {
-        let layers =
-            layers.iter().map(|&(kind, name)| Layer::new(kind, name, size.internal_pixels())).collect();
+    pub fn new(size: FilmSize, layers: &[(LayerKind, impl AsRef<str>)]) -> Self {
+        let layers = layers
+            .iter()
+            .map(|(kind, name)| Layer::new(*kind, name.as_ref(), size.internal_pixels()))
+            .collect();
         Self { size, layers, refused: 0 }
     }
 
@@ -76,11 +78,17 @@ impl FilmState {
 
     /// The same of the layers whose names are wanted.
     pub fn develop_layers(&self, is_wanted: impl Fn(&str) -> bool) -> XyzImage {
-        let wanted: Vec<&Layer> = self.layers.iter().filter(|l| is_wanted(&l.name)).collect();
-        let counted = wanted.iter().any(|l| l.kind == LayerKind::PerPixel);
+        self.develop_mixed(&LightMix::default(), is_wanted)
+    }
+
+    /// The same with each group of lights as bright as it is in a mix.
+    pub fn develop_mixed(&self, mix: &LightMix, is_wanted: impl Fn(&str) -> bool) -> XyzImage {
+        let wanted = self.layers.iter().filter(|l| is_wanted(&l.name));
+        let wanted: Vec<(&Layer, f64)> = wanted.map(|layer| (layer, mix.gain(&layer.name))).collect();
+        let counted = wanted.iter().any(|(l, _)| l.kind == LayerKind::PerPixel);
         let band_pixels = BAND_ROWS * self.size.internal_width() as usize;
         XyzImage::from_bands(self.size, counted, |band, out, missing| {
-            for layer in &wanted {
+            for (layer, gain) in &wanted {
                 let from = (band * band_pixels).min(layer.sums.len());
                 let pixels = from..(from + band_pixels).min(layer.sums.len());
                 let counts = match layer.kind {
@@ -88,7 +96,8 @@ impl FilmState {
                     LayerKind::PerScreen => &[],
                 };
                 let rows = (&layer.sums[pixels], counts);
-                develop_layer(layer.kind, &layer.totals, self.size.internal_pixels(), rows, out, missing);
+                let is = (layer.kind, &layer.totals);
+                develop_layer(is, *gain, self.size.internal_pixels(), rows, out, missing);
             }
         })
     }

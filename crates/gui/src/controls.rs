@@ -1,6 +1,7 @@
 //! How the picture is developed, as the controls have it.
 
 use crate::words;
+use indigo_film::LightMix;
 use indigo_formats::response;
 use indigo_imaging::{Bloom, PictureSettings, Response, ToneMapping, WhiteBalance};
 use indigo_render::disk::read_limited;
@@ -26,6 +27,8 @@ impl Mapper {
 /// All controls of development. Those of tone mappings that are not chosen keep their values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Controls {
+    /// How bright the groups of lights are.
+    pub lights: LightMix,
     /// The tone mapping.
     pub mapper: Mapper,
     /// Factor of the linear one.
@@ -58,6 +61,7 @@ impl Controls {
     /// The controls that stand for settings.
     pub fn of(settings: &PictureSettings) -> Self {
         let mut controls = Self {
+            lights: settings.lights.clone(),
             mapper: Mapper::Linear,
             scale: 1.0,
             pre_scale: 4.0,
@@ -90,6 +94,7 @@ impl Controls {
     /// The settings that these controls make of a scene's.
     pub fn apply(&self, base: &PictureSettings) -> PictureSettings {
         PictureSettings {
+            lights: self.lights.clone(),
             tone_mapping: self.tone_mapping(),
             white_balance: WhiteBalance::from_white(self.white).unwrap_or(base.white_balance),
             diffraction: base.diffraction.clone().filter(|_| self.diffraction),

@@ -1,5 +1,6 @@
 //! The scene as a file of a person's own: its elements, and changes that keep its comments and layout.
 
+mod lights;
 mod settings;
 
 use crate::controls::Controls;
@@ -91,7 +92,8 @@ impl SceneFile {
     /// # Errors
     /// As [`save`](Self::save).
     pub fn save_controls(&self, controls: &Controls, was: &PictureSettings) -> Result<Vec<PathBuf>, String> {
-        let edits = settings::edits(&self.root, controls, was).map_err(|error| error.to_string())?;
+        let mut edits = settings::edits(&self.root, controls, was).map_err(|error| error.to_string())?;
+        lights::edit(&self.root, &controls.lights, &was.lights, &mut edits)?;
         self.write(&edits)
     }
 

@@ -100,6 +100,8 @@ texts! {
     PICK_GREY = "Pick a grey point";
     NO_GREY = "this point is too dark to have a colour";
     OPTICS = "Optics";
+    LIGHT_GROUPS = "Lights";
+    LIGHT_GROUPS_HINT = "How bright these lights are in the picture: 1 is as they were rendered";
     DIFFRACTION = "Aperture diffraction";
     NO_DIFFRACTION = "This scene has no diffraction, or it is part of the render already";
     BLOOM = "Bloom";

@@ -12,7 +12,7 @@ use rayon::prelude::*;
 
 /// Makes the picture of a film. Runs on the caller's rayon pool.
 pub fn develop(film: &FilmState, settings: &PictureSettings) -> Picture {
-    develop_image(&on_sensor(film.develop(), settings), settings)
+    develop_image(&on_sensor(film.develop_mixed(&settings.lights, |_| true), settings), settings)
 }
 
 /// The light that falls on the sensor: that of the film, diffracted by the camera's aperture if the

@@ -56,7 +56,7 @@ fn encode_channels(
     for channel in &channels {
         check_pixels(size.0 * size.1, channel.values.len())?;
     }
-    let channels = channels.into_iter().map(|c| AnyChannel::new(c.name, FlatSamples::F32(c.values)));
+    let channels = channels.into_iter().map(|c| AnyChannel::new(&*c.name, FlatSamples::F32(c.values)));
     let channels = AnyChannels::sort(channels.collect());
     let layer = Layer::new(size, attributes(metadata, white_luminance)?, encoding(), channels);
     let mut file = Image::from_layer(layer);

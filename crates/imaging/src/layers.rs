@@ -4,13 +4,14 @@
 use crate::LinearImage;
 use crate::white_balance::plain_rgb;
 use indigo_film::FirstHit;
+use std::borrow::Cow;
 use std::fmt::Write as _;
 
 /// A channel of a layered EXR: its full name, and a value for each pixel, rows from top to bottom.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Channel {
     /// Such as `albedo.R`.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// Its values.
     pub values: Vec<f32>,
 }
@@ -41,6 +42,12 @@ pub fn direct_channels(image: &LinearImage) -> Vec<Channel> {
 /// The picture's `indirect` light.
 pub fn indirect_channels(image: &LinearImage) -> Vec<Channel> {
     channels(&image.pixels, ["indirect.R", "indirect.G", "indirect.B"], |[r, g, b, _]| [*r, *g, *b])
+}
+
+/// The picture's light of one group of lights, as `light1` and so on by its number from 0.
+pub fn light_channels(number: usize, image: &LinearImage) -> Vec<Channel> {
+    let names = ["R", "G", "B"].map(|channel| format!("light{}.{channel}", number + 1));
+    channels(&image.pixels, names, |[r, g, b, _]| [*r, *g, *b])
 }
 
 /// `albedo` (linear Rec. 709), `normal`, `depth` (metres), `object_id` and `material_id`. Numbers are exact up to 2^24.
@@ -75,11 +82,13 @@ pub fn manifest<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
 
 fn channels<T, const N: usize>(
     pixels: &[T],
-    names: [&'static str; N],
+    names: [impl Into<Cow<'static, str>>; N],
     values: impl Fn(&T) -> [f32; N],
 ) -> Vec<Channel> {
-    let mut channels: Vec<Channel> =
-        names.into_iter().map(|name| Channel { name, values: Vec::with_capacity(pixels.len()) }).collect();
+    let mut channels: Vec<Channel> = names
+        .into_iter()
+        .map(|name| Channel { name: name.into(), values: Vec::with_capacity(pixels.len()) })
+        .collect();
     for pixel in pixels {
         for (channel, value) in channels.iter_mut().zip(values(pixel)) {
             channel.values.push(value);

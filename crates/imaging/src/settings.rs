@@ -1,12 +1,14 @@
 //! How a picture is made from the film.
 
 use crate::{Bloom, Diffraction, ImagingError, ToneMapping, WhiteBalance};
-use indigo_film::{FilmSize, Filter};
+use indigo_film::{FilmSize, Filter, LightMix};
 use std::sync::Arc;
 
 /// All that a picture depends on besides the film.
 #[derive(Clone, Debug)]
 pub struct PictureSettings {
+    /// How bright each group of lights is.
+    pub lights: LightMix,
     /// Diffraction by the camera's aperture as a filter on the film's light.
     pub diffraction: Option<Arc<Diffraction>>,
     /// A glow round bright spots.
@@ -33,6 +35,7 @@ impl PictureSettings {
     /// A tone mapping and an exposure, and nothing else out of the ordinary.
     pub fn plain(tone_mapping: ToneMapping, exposure: Exposure) -> Self {
         Self {
+            lights: LightMix::default(),
             diffraction: None,
             bloom: None,
             tone_mapping,

@@ -150,7 +150,7 @@ fn the_reference_implementation_reads_our_layers() {
         .collect();
     assert_eq!(read.len(), 19);
     for channel in &channels {
-        assert_eq!(read[channel.name], channel.values, "{}", channel.name);
+        assert_eq!(read[&*channel.name], channel.values, "{}", channel.name);
     }
     // XYZ of D65 is grey in RGB.
     assert!(read["albedo.R"].iter().enumerate().all(|(i, v)| (v - i as f32).abs() < 1e-3 * i as f32 + 1e-6));

@@ -27,6 +27,8 @@ pub struct AreaLight {
     /// The triangles' areas, m², and their sum.
     areas: Vec<f64>,
     area_m2: f64,
+    /// The group of lights that it belongs to.
+    group: u16,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -72,6 +74,7 @@ impl AreaLight {
             modulation: None,
             photometry: None,
             area_m2: areas.iter().sum(),
+            group: 0,
             areas,
         };
         light.choose_by(|_| 1.0);
@@ -111,6 +114,19 @@ impl AreaLight {
     pub fn times(mut self, factor: &Spectrum) -> Self {
         self.radiance = self.radiance.times(factor);
         self
+    }
+
+    /// The lamp in a group of lights; 0 without this.
+    #[must_use]
+    pub fn in_group(mut self, group: u16) -> Self {
+        self.group = group;
+        self
+    }
+
+    /// The group of lights that it belongs to.
+    #[inline]
+    pub fn group(&self) -> u16 {
+        self.group
     }
 
     /// The lamp with the directions and the flux of a profile, whose horizontal angles count from the `x_axis`

@@ -18,5 +18,7 @@ pub use area::AreaLight;
 pub use kinds::{Distant, DistantLight};
 pub use portals::{Passage, Portals};
 pub use profile::Profile;
-pub use query::{Emission, EmissionPdf, EmitterHit, EmitterPoint, LightSample, Receiver, Source, SourceView};
+pub use query::{
+    Emission, EmissionPdf, EmitterHit, EmitterPoint, LightSample, Receiver, Sender, Source, SourceView,
+};
 pub use table::LightTable;

@@ -90,6 +90,17 @@ pub struct LightSample {
     /// Densities with which [`LightTable::sample_emission`](crate::LightTable::sample_emission) would
     /// send the same light here.
     pub pdf_emission: EmissionPdf,
+    /// Who sends it.
+    pub sender: Sender,
+}
+
+/// Who sends light: that is all that its group depends on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Sender {
+    /// The lamp of a number.
+    Lamp(u32),
+    /// The environment, in a unit direction towards it.
+    Environment(Vec3),
 }
 
 /// Where a light path begins: at a point of a lamp, or in a direction of the environment.
@@ -104,6 +115,15 @@ pub struct Source {
 }
 
 impl Source {
+    /// Who sends the light.
+    #[inline]
+    pub fn sender(&self) -> Sender {
+        match self.place {
+            Place::Lamp(number, _) => Sender::Lamp(number),
+            Place::Environment(towards, _) => Sender::Environment(towards),
+        }
+    }
+
     /// The point of the lamp; `None` for the environment.
     #[inline]
     pub fn point(&self) -> Option<Vec3> {

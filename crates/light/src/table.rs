@@ -5,6 +5,7 @@
 //! gets to a receiver, least of all in a room: beside lamps it gets half of the draws, and half of the light paths
 //! begin with it. So whichever of the two matters, it has half of the samples that it would have alone.
 
+mod groups;
 mod sources;
 
 use crate::area::AreaLight;
@@ -12,7 +13,7 @@ use crate::environment::Environment;
 use crate::kinds::DistantLight;
 use crate::light_tree::LightTree;
 use crate::portals::Portals;
-use crate::query::{Emission, EmissionPdf, EmitterHit, LightSample, Receiver};
+use crate::query::{Emission, EmissionPdf, EmitterHit, LightSample, Receiver, Sender};
 use indigo_math::distribution::{AliasTable, refined};
 use indigo_math::{Float, Real, Vec3, Vec3d};
 use indigo_spectrum::{LightSpectrum, SampledSpectrum, SampledWavelengths};
@@ -31,6 +32,8 @@ pub struct LightTable {
     share_of_draws: f64,
     /// For each object of the scene the lamp that it is, or [`NO_LAMP`].
     of_object: Vec<u32>,
+    /// For each distant light the group that it belongs to; all to group 0, where this is empty.
+    distant_groups: Vec<u16>,
 }
 
 const NO_LAMP: u32 = u32::MAX;
@@ -86,6 +89,7 @@ impl LightTable {
             of_object: object_lamps.map(|l| l.unwrap_or(NO_LAMP)).collect(),
             lamps,
             environment,
+            distant_groups: vec![],
         }
     }
 
@@ -178,6 +182,7 @@ impl LightTable {
                 second: lamp.pdf_direction(triangle, front, -wi),
             },
             point: Some(point),
+            sender: Sender::Lamp(drawn.lamp),
         })
     }
 
@@ -198,6 +203,7 @@ impl LightTable {
             radiance: environment.radiance(wi, lambda),
             pdf,
             pdf_emission: self.pdf_emission_environment(wi, to.p),
+            sender: Sender::Environment(wi),
         })
     }
 

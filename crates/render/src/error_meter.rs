@@ -42,7 +42,9 @@ impl ErrorMeter {
     pub fn estimate(&mut self, shared: &Shared) -> Option<f64> {
         let [before, a, b] = &shared.films[..] else { return None };
         let taken = [before, a, b].map(MasterFilm::samples_per_pixel);
-        let images: [XyzImage; 2] = with_jobs(self.threads, || [a.develop(), b.develop()]);
+        // As the scene has them: who turns lights up and down meanwhile does not ask for other samples.
+        let mix = &shared.scene.picture.lights;
+        let images: [XyzImage; 2] = with_jobs(self.threads, || [a.develop(mix), b.develop(mix)]);
         let size = shared.scene.film.size;
         let region = shared.scene.film.region.unwrap_or([[0, size.width()], [0, size.height()]]);
         let counts = Counts { halves: [taken[1], taken[2]], all: taken.iter().sum() };

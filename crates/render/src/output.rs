@@ -11,7 +11,7 @@ use crate::atomic::{check_writable, write_atomically};
 use crate::denoise::{DenoiseError, Denoiser};
 use crate::first_hits::SceneFirstHits;
 use crate::pool::with_jobs;
-use indigo_film::{DevelopedFilm, FilmRecord, FilmState, Filter, SavedFilm, XyzImage, igi};
+use indigo_film::{DevelopedFilm, FilmRecord, FilmState, Filter, SavedFilm, XyzImage, igi, mix};
 use indigo_imaging::{
     Content, Exposure, ImagingError, LinearImage, Metadata, Picture, PictureSettings, ToneMapping, coverage,
     develop_image, exr, from_linear, layers, linear_picture, on_sensor, png, untonemapped,
@@ -120,7 +120,8 @@ impl SaveJob {
         if let (true, Some(record)) = (self.development.output.igi, &saved.record) {
             all.add(write_film(&self.paths.igi(), &saved.film, record));
         }
-        self.save_light(saved.film.develop(), saved.record.as_ref(), Some(&saved.film), &mut all);
+        let light = saved.film.develop_mixed(&self.development.picture.lights, |_| true);
+        self.save_light(light, saved.record.as_ref(), Some(&saved.film), &mut all);
         all
     }
 
@@ -210,12 +211,20 @@ impl SaveJob {
             channels.extend(layers::background_channels(&self.part(film, is_background)));
             channels.extend(layers::direct_channels(&self.part(film, |layer| !is_indirect(layer))));
             channels.extend(layers::indirect_channels(&self.part(film, is_indirect)));
+            for (number, group) in settings.lights.0.iter().enumerate() {
+                let light = self.part(film, |layer| mix::split(layer).1 == Some(&group.name));
+                channels.extend(layers::light_channels(number, &light));
+            }
         }
         channels.extend(layers::first_hit_channels(hits.get()));
         let content = if settings.foreground_alpha { Content::Coverage } else { Content::Luminances };
         let mut metadata = said(metadata, content);
         metadata.set("object_names", layers::manifest(hits.names().objects.iter().map(|name| &**name)));
         metadata.set("material_names", layers::manifest(hits.names().materials.iter().map(|name| &**name)));
+        if !settings.lights.0.is_empty() {
+            let names = settings.lights.0.iter().map(|group| &*group.name);
+            metadata.set("light_names", layers::manifest(names));
+        }
         let bytes = exr::encode_layers([linear.width, linear.height], channels, &metadata, content)?;
         write(&self.paths.layers_exr(), &bytes)
     }
@@ -223,7 +232,7 @@ impl SaveJob {
     /// The linear picture of some of a film's layers.
     fn part(&self, film: &FilmState, is_wanted: impl Fn(&str) -> bool) -> LinearImage {
         let settings = &self.development.picture;
-        let image = on_sensor(film.develop_layers(is_wanted), settings);
+        let image = on_sensor(film.develop_mixed(&settings.lights, is_wanted), settings);
         untonemapped(&image, settings.downsize, settings.region)
     }
 

@@ -62,7 +62,9 @@ pub fn develop_film(
     settings: &PictureSettings,
     expected: FilmSize,
 ) -> Result<DevelopedFilm, FilmFileError> {
-    with_jobs(usize::MAX, || rayon::join(|| made_of(path, IgiFile::develop), || settings.prepare(expected)).0)
+    with_jobs(usize::MAX, || {
+        rayon::join(|| made_of(path, |file| file.develop(&settings.lights)), || settings.prepare(expected)).0
+    })
 }
 
 fn made_of<T>(path: &Path, make: impl FnOnce(&IgiFile) -> Result<T, IgiError>) -> Result<T, FilmFileError> {

@@ -6,6 +6,7 @@
 use crate::driver::Driver;
 use crate::technique::{End, Record};
 use indigo_film::{FilmState, Sensor};
+use indigo_light::Sender;
 use indigo_math::{Float, Real, Vec2, Vec3};
 use indigo_scene::Scene;
 use indigo_spectrum::{SampledSpectrum, SampledWavelengths};
@@ -111,6 +112,7 @@ impl Record for Replay {
         at: Option<Vec2>,
         unweighted: SampledSpectrum,
         weight: Real,
+        _: Sender,
     ) {
         if self.is_wanted()
             && let Some(lambda) = &self.lambda

@@ -8,6 +8,7 @@
 use crate::sampler::{Block, PrimarySample, SobolSample};
 use crate::technique::{Events, Record, Tracer};
 use indigo_film::{FilmSize, Sensor, XyzImage};
+use indigo_light::Sender;
 use indigo_math::{Real, Vec2};
 use indigo_scene::Scene;
 use indigo_spectrum::SampledSpectrum;
@@ -44,6 +45,7 @@ impl Record for Contributions {
         at: Option<Vec2>,
         unweighted: SampledSpectrum,
         weight: Real,
+        _: Sender,
     ) {
         self.found.push((strategy, at.unwrap_or(self.position), unweighted, weight));
     }

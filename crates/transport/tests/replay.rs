@@ -153,6 +153,7 @@ impl indigo_transport::technique::Record for Targets {
         _: Option<indigo_math::Vec2>,
         value: indigo_spectrum::SampledSpectrum,
         weight: Real,
+        _: indigo_light::Sender,
     ) {
         let xyz = self.sensor.as_ref().expect("begun").xyz(&(value * weight));
         *self.targets.last_mut().expect("begun") += xyz.iter().map(|v| f64::from(*v)).sum::<f64>() / 3.0;

@@ -412,3 +412,48 @@ fn a_camera_develops_by_its_response_and_speed() {
         );
     }
 }
+
+/// A scene with two lights in layers of their own.
+fn lit(layers: &str) -> String {
+    format!(
+        "{SAVED}<save_untonemapped_exr>true</save_untonemapped_exr><save_layers_exr>true</save_layers_exr>{layers}"
+    )
+}
+
+/// A film does not know how bright its lights are in the picture: it is developed, and gone on with, as the scene says then.
+#[test]
+fn lights_are_turned_up_and_down_after_the_render() {
+    let layer = |gain: f64| {
+        format!(
+            "<layer_setting><name>all</name><layer_scale><uniform><value>{gain}</value></uniform></layer_scale></layer_setting>"
+        )
+    };
+    let bench = Workbench::new(&lit(&layer(1.0)));
+    ok(&bench.run(&["scene.igs", "-haltspp", "2", "-o", "a.png", "-seed", "3"]));
+    let mean = |name: &str, channel: &str| {
+        let image = exr::prelude::read_first_flat_layer_from_file(bench.path(name)).expect("an EXR");
+        let channels = &image.layer_data.channel_data.list;
+        let green = channels.iter().find(|c| c.name.eq(channel)).expect("a channel");
+        let values: Vec<f64> = green.sample_data.values_as_f32().map(f64::from).collect();
+        values.iter().sum::<f64>() / values.len() as f64
+    };
+    let before = mean("a_untonemapped.exr", "G");
+    assert!(before > 0.0);
+    assert!((mean("a_layers.exr", "light1.G") / before - 1.0).abs() < 1e-4);
+    let scene = std::fs::read_to_string(bench.path("scene.igs")).expect("the scene");
+    for (name, setting, factor) in [
+        ("dim", layer(0.25), 0.25),
+        ("off", layer(1.0).replace("<name>", "<enabled>false</enabled><name>"), 0.0),
+    ] {
+        bench.write("other.igs", &scene.replace(&layer(1.0), &setting));
+        ok(&bench.run(&["--tonemap", "other.igs", "a.igi", &format!("{name}.png")]));
+        let after = mean(&format!("{name}_untonemapped.exr"), "G");
+        assert!((after / before - factor).abs() < 1e-4, "{name}: {after} of {before}");
+        // The film is of that scene, too.
+        let ran = bench.run(&["other.igs", "-haltspp", "3", "-r", "a.igi", "-o", &format!("{name}2.png")]);
+        ok(&ran);
+        assert!(ran.stderr.contains("Going on with a.igi"), "{}", ran.stderr);
+        let gone_on = mean(&format!("{name}2_untonemapped.exr"), "G");
+        assert!((gone_on / before - factor).abs() < 0.1, "{name}: {gone_on} of {before}");
+    }
+}

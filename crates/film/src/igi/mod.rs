@@ -34,6 +34,7 @@ mod read;
 mod write;
 
 use crate::FilmError;
+use crate::mix::MOST_GROUPS;
 
 pub use parcel::Parcel;
 pub use read::{IgiFile, parcel_size, read, read_parcel};
@@ -55,8 +56,8 @@ const PARCEL_MARK: [u8; 8] = *b"IndiPart";
 const SECTION_VERSION: u32 = 2;
 /// Bytes of the hash at the end.
 const HASH: usize = 32;
-/// The most layers of a film: four times as many as any mode of rendering has.
-const MAX_LAYERS: usize = 16;
+/// The most layers of a film: for each group of lights as many as any mode of rendering has.
+const MAX_LAYERS: usize = 6 * MOST_GROUPS;
 
 /// Why an Indigo image could not be read.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -6,7 +6,7 @@ use super::foreign;
 use super::{HASH, IMAGE, IgiError, MAGIC, MARK, MAX_LAYERS, PADDING, PARCEL_MARK, SECTION_VERSION, VERSION};
 use crate::band::develop_layer;
 use crate::record::{DevelopedFilm, FilmRecord, Run, SavedFilm};
-use crate::{FilmSize, FilmState, Layer, LayerKind, Totals, XyzImage};
+use crate::{FilmSize, FilmState, Layer, LayerKind, LightMix, Totals, XyzImage};
 use indigo_math::pages::{self, fresh};
 use std::io::{self, Read};
 
@@ -83,17 +83,17 @@ impl IgiFile {
         }
     }
 
-    /// The film developed: the same as developing [`Self::film`], but its sums, three times as large as the image, are
+    /// The film developed: the same as developing [`Self::film`] with a mix of its lights, but its sums, three times as large as the image, are
     /// nowhere all at once. Runs on the caller's rayon pool.
     ///
     /// # Errors
     /// See [`IgiError`].
-    pub fn develop(&self) -> Result<DevelopedFilm, IgiError> {
+    pub fn develop(&self, mix: &LightMix) -> Result<DevelopedFilm, IgiError> {
         if let Some(start) = &self.own {
-            return self.checked(start, Content::develop);
+            return self.checked(start, |content| content.develop(mix));
         }
         let SavedFilm { film, record } = read_without_mark(&self.bytes)?;
-        Ok(DevelopedFilm { image: film.develop(), record })
+        Ok(DevelopedFilm { image: film.develop_mixed(mix, |_| true), record })
     }
 
     /// Makes something of the content of a file with the mark while its hash is computed.
@@ -228,11 +228,13 @@ impl<'a> Content<'a> {
         Ok(SavedFilm { film: FilmState { size, layers, refused }, record: Some(record) })
     }
 
-    fn develop(self) -> Result<DevelopedFilm, IgiError> {
+    fn develop(self, mix: &LightMix) -> Result<DevelopedFilm, IgiError> {
         let Self { size, record, layers, .. } = self;
+        let gains: Vec<f64> = layers.iter().map(|layer| mix.gain(&layer.name)).collect();
         let counted = layers.iter().any(|layer| layer.kind == LayerKind::PerPixel);
         let image = XyzImage::from_chunks(size, counted, BLOCK, Room::default, |room, i, out, missing| {
-            layers.iter().try_for_each(|layer| layer.develop(size, i, room, out, missing))
+            let mut mixed = layers.iter().zip(&gains);
+            mixed.try_for_each(|(layer, gain)| layer.develop(*gain, size, i, room, (out, missing)))
         })?;
         Ok(DevelopedFilm { image, record: Some(record) })
     }
@@ -332,11 +334,11 @@ impl<'a> PackedLayer<'a> {
     /// Adds the radiance of block `i` of pixels, as many as a block of counts has.
     fn develop(
         &self,
+        gain: f64,
         size: FilmSize,
         i: usize,
         room: &mut Room,
-        out: &mut [[f32; 4]],
-        missing: &mut [bool],
+        (out, missing): (&mut [[f32; 4]], &mut [bool]),
     ) -> Result<(), IgiError> {
         /// Blocks of sums to one of counts, and the pixels of each.
         const PARTS: usize = 4;
@@ -351,7 +353,8 @@ impl<'a> PackedLayer<'a> {
             sums.resize(out.len(), [0.0; 4]);
             self.sums.unpack_block(i * PARTS + part, scratch, sums.as_flattened_mut())?;
             let counts = counts.get(part * PART..).unwrap_or_default();
-            develop_layer(self.kind, &self.totals, size.internal_pixels(), (sums, counts), out, missing);
+            let (is, rows) = ((self.kind, &self.totals), (&**sums, counts));
+            develop_layer(is, gain, size.internal_pixels(), rows, out, missing);
         }
         Ok(())
     }

@@ -47,13 +47,13 @@ static TASKS: &[Task] = &[
     task("list-files", [1, 1], "a scene", "--list-files SCENE.igs", &["json"]),
     task("make-key", [0, 0], "no file but its own", "--make-key FILE", &[]),
     task("dumpmetadata", [0, 0], "no file but its own", "--dumpmetadata PICTURE.png", &["json"]),
-    task("ptest", [0, 1], "a scene", "--ptest SCENE.igs", &["haltspp", "t", "seed", "json"]),
+    task("ptest", [0, 1], "a scene", "--ptest SCENE.igs", &["haltspp", "t", "seed", "placeholders", "json"]),
     task(
         "check",
         [0, 1],
         "a scene",
         "--check SCENE.igs",
-        &["print-settings", "r", "json", "halt", "haltspp", "t", "layers", "denoise"],
+        &["print-settings", "r", "json", "halt", "haltspp", "t", "layers", "denoise", "placeholders"],
     ),
     task(
         "print-settings",
@@ -82,6 +82,7 @@ const OF_MASTERS: &[&str] = &[
     "haltspp",
     "t",
     "json",
+    "placeholders",
     "seed",
 ];
 

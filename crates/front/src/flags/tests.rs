@@ -93,6 +93,10 @@ fn network_options_go_with_their_part() {
     assert_eq!((slave.network, slave.host), (Some(Role::Slave), Some(("lust".to_owned(), 7778))));
     let master = parsed(&["a.igs", "-n", "wm", "-p", "8000", "--key-file", "k"]).unwrap();
     assert_eq!((master.network, master.port), (Some(Role::WorkingMaster), Some(8000)));
+    assert!(
+        parsed(&["a.igs", "-n", "m", "-placeholders"]).is_ok()
+            && parsed(&["a.igs", "-check", "-placeholders"]).is_ok()
+    );
     let status = |value: &str| parsed(&["a.igs", "-n", "m", "--status-port", value]).map(|a| a.status);
     assert_eq!(status("8080"), Ok(Some("127.0.0.1:8080".parse().unwrap())));
     assert_eq!(status("0.0.0.0:8080"), Ok(Some("0.0.0.0:8080".parse().unwrap())));

@@ -5,7 +5,7 @@
 //! change has come meanwhile.
 
 use eframe::egui::{Color32, ColorImage};
-use indigo_film::{FilmState, XyzImage};
+use indigo_film::{FilmState, LightMix, XyzImage};
 use indigo_front::logical_cores;
 use indigo_imaging::{Picture, PictureSettings, develop_image, on_sensor, preview_light};
 use indigo_render::pool::with_jobs;
@@ -58,8 +58,16 @@ struct Kept {
     settings: Option<PictureSettings>,
     /// The light of the film, where it may be diffracted or not.
     film: Option<Arc<FilmState>>,
-    /// The light on the sensor, whether it is diffracted, and the same without super-sampling.
-    sensor: Option<(XyzImage, bool, Arc<XyzImage>)>,
+    sensor: Option<Sensor>,
+}
+
+/// The light on the sensor.
+struct Sensor {
+    full: XyzImage,
+    /// The same without super-sampling.
+    small: Arc<XyzImage>,
+    is_diffracted: bool,
+    lights: LightMix,
 }
 
 impl Desk {
@@ -104,11 +112,10 @@ impl Desk {
             kept.film = film.or(kept.film);
             kept.settings = settings.or(kept.settings);
             let (Some(film), Some(settings)) = (&kept.film, kept.settings.clone()) else { continue };
-            let is_diffracted = settings.diffraction.is_some();
-            if is_new_film || kept.sensor.as_ref().is_none_or(|sensor| sensor.1 != is_diffracted) {
-                kept.sensor = with_jobs(logical_cores(), || sensor(film, &settings));
+            if is_new_film || kept.sensor.as_ref().is_none_or(|sensor| !sensor.is_of(&settings)) {
+                kept.sensor = with_jobs(logical_cores(), || Sensor::new(film, &settings));
             }
-            let Some((full, _, small)) = &kept.sensor else { continue };
+            let Some(Sensor { full, small, .. }) = &kept.sensor else { continue };
             let is_small_enough = full.size.super_sample() == 1;
             if !is_new_film && !is_small_enough {
                 self.show(small, small, &settings, start, wake);
@@ -162,10 +169,22 @@ impl Desk {
     }
 }
 
-fn sensor(film: &FilmState, settings: &PictureSettings) -> Option<(XyzImage, bool, Arc<XyzImage>)> {
-    let full = on_sensor(film.develop(), settings);
-    let small = preview_light(&full)?;
-    Some((full, settings.diffraction.is_some(), Arc::new(small)))
+impl Sensor {
+    fn new(film: &FilmState, settings: &PictureSettings) -> Option<Self> {
+        let full = on_sensor(film.develop_mixed(&settings.lights, |_| true), settings);
+        let small = Arc::new(preview_light(&full)?);
+        Some(Self {
+            full,
+            small,
+            is_diffracted: settings.diffraction.is_some(),
+            lights: settings.lights.clone(),
+        })
+    }
+
+    /// Whether it would be the same by other settings.
+    fn is_of(&self, settings: &PictureSettings) -> bool {
+        self.is_diffracted == settings.diffraction.is_some() && self.lights == settings.lights
+    }
 }
 
 fn on_screen(picture: &Picture) -> (ColorImage, Histogram) {

@@ -3,6 +3,7 @@
 mod cross;
 mod foot;
 mod keys;
+mod lights;
 mod network;
 mod picture;
 mod questions;

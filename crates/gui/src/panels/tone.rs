@@ -1,6 +1,6 @@
 //! How the picture is developed.
 
-use super::{head, row};
+use super::{head, lights, row};
 use crate::action::Action;
 use crate::controls::{Controls, Mapper, read_response};
 use crate::engine::Histogram;
@@ -24,6 +24,7 @@ pub fn tone(ui: &mut Ui, state: &mut State) {
     mapping(ui, state, &mut controls);
     white(ui, state, &mut controls);
     optics(ui, state, &mut controls);
+    lights::lights(ui, &mut controls);
     if state.controls.as_ref() != Some(&controls) {
         state.controls = Some(controls);
         state.controls_changed();

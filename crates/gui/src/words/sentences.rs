@@ -13,6 +13,27 @@ use indigo_render::HaltReason;
 use std::path::Path;
 use std::time::Duration;
 
+/// Of a group of lights whose brightness a scene file cannot tell.
+pub fn no_gain(name: &str) -> String {
+    format!(
+        "the brightness of {name} is not written: its <layer_scale> has no gain; give it as <rgb>, <xyz>, <blackbody> or <uniform>"
+    )
+}
+
+/// What a group of lights is.
+pub fn light_group(name: &str) -> String {
+    format!("Whether the lights of {name} are on; the film keeps their light apart")
+}
+
+/// A name as far as there is room for it in front of a control.
+pub fn short(name: &str) -> String {
+    const MOST: usize = 14;
+    if name.chars().count() <= MOST {
+        return name.to_owned();
+    }
+    name.chars().take(MOST - 1).chain(['…']).collect()
+}
+
 /// An option of the console alone.
 pub fn only_of_console(option: &str) -> String {
     format!("-{option} is an option of indigo_console: it needs no window")

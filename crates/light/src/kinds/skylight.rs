@@ -2,6 +2,11 @@
 
 use indigo_decl::{Block, Field, Kind, Later, Presence, Range};
 
+/// The number of a `layer_setting`.
+pub const fn layer(name: &'static str, doc: &'static str) -> Field {
+    Field::new(name, Kind::Int, Presence::Default("0"), doc).range(Range::AtLeast(0.0))
+}
+
 /// The declaration of `skylight`.
 pub static BLOCK: Block = Block::new(
     "skylight",
@@ -39,9 +44,11 @@ pub static BLOCK: Block = Block::new(
              over black ground (an albedo of 0, which cannot be set): over bright ground a real sky is some per cent \
              brighter.",
         ),
+        layer("sun_layer", "The number of the sun's `layer_setting`. Of version 1.1."),
+        layer("sky_layer", "The number of the sky's `layer_setting`. Of version 1.1."),
     ],
 )
-.with_later(&[Later::new("sun_layer", "1.1"), Later::new("sky_layer", "1.1"), Later::new("uid", "3.0")])
+.with_later(&[Later::new("uid", "3.0")])
 .with_example(
     "<skylight>
     <sundir>0 0.6 1</sundir>

@@ -48,7 +48,7 @@ fn write_one(
         let record = saved.record.clone().unwrap_or_default();
         return write_film(path, &saved.film, &record);
     }
-    let light = saved.film.develop();
+    let light = saved.film.develop_mixed(&settings.lights, |_| true);
     let metadata = metadata(light.size);
     let image = on_sensor(light, settings);
     let content = match (settings.foreground_alpha, what) {

@@ -11,6 +11,7 @@ mod direct;
 mod draining;
 mod error;
 mod halting;
+mod light_groups;
 mod regions;
 mod resuming;
 

@@ -16,7 +16,11 @@ use indigo_texture::Curve;
 use std::f64::consts::{PI, TAU};
 
 /// The lights of a background, whose `sum` may name materials of the scene.
-pub(super) fn lights(settings: &Node, materials: &MaterialTable, context: &mut Context) -> Vec<DistantLight> {
+pub(super) fn lights(
+    settings: &Node,
+    materials: &MaterialTable,
+    context: &mut Context,
+) -> Vec<(DistantLight, u16)> {
     let scale = settings.node("emission_scale").map(|scale| {
         scale.disregard_fields(&["material_name", "measure"]);
         (scale, scale.real("value"))
@@ -27,19 +31,17 @@ pub(super) fn lights(settings: &Node, materials: &MaterialTable, context: &mut C
     let Some(kind) = material.alternative() else { return vec![] };
     let mut lights = vec![];
     for (kind, weight) in shining(kind, materials, context) {
-        let layer = materials.layer_factor(kind);
         if kind.block.name == "sunsky" {
-            let is_neutral = layer.is_none_or(|factor| factor == Spectrum::uniform(1.0));
-            if weight != 1.0 || scale.is_some() || !is_neutral {
-                let message = "sun and sky keep their brightness: <weight>, <emission_scale> and <layer_setting> have no effect on a <sunsky>";
+            if weight != 1.0 || scale.is_some() {
+                let message = "sun and sky keep their brightness: <weight> and <emission_scale> have no effect on a <sunsky>";
                 context.sink.push(Diagnostic::warning(codes::IDLE_SCALE, kind.span, message));
             }
-            lights.extend(environment::skylight(kind, context));
+            lights.extend(environment::skylight(kind, materials, context));
             continue;
         }
-        if let Some(even) = even_light(kind, weight, layer, context) {
-            lights.push(even);
-        }
+        let layer = materials.layer(if kind.block.declares("layer") { kind.int("layer") } else { 0 });
+        let even = even_light(kind, weight, layer.colour, context);
+        lights.extend(even.map(|even| (even, layer.group)));
     }
     if let Some((node, luminance)) = scale {
         scale_to(&mut lights, luminance, node, context);
@@ -72,14 +74,14 @@ fn shining<'a>(kind: &'a Node, materials: &MaterialTable<'a>, context: &mut Cont
 fn even_light(
     kind: &Node,
     weight: f64,
-    layer: Option<Spectrum>,
+    colour: Option<Spectrum>,
     context: &mut Context,
 ) -> Option<DistantLight> {
     // Of a material that surrounds everything only the emission is to be seen.
     kind.disregard();
     let field = |name: &str| kind.block.declares(name).then(|| kind.node(name)).flatten();
     let base = field("base_emission");
-    let layer = layer.unwrap_or(Spectrum::uniform(1.0));
+    let layer = colour.unwrap_or(Spectrum::uniform(1.0));
     if let Some(texture) = field("emission_texture") {
         let gain =
             base.map_or(Spectrum::uniform(1.0), |base| read::emission(base, context.sink)).times(&layer);
@@ -133,12 +135,13 @@ fn turn_of(texture: &Node, context: &mut Context) -> f64 {
 }
 
 /// Brings even lights and pictures to a mean luminance (cd/m²) over all directions.
-fn scale_to(lights: &mut Vec<DistantLight>, luminance: f64, node: &Node, context: &mut Context) {
+fn scale_to(lights: &mut [(DistantLight, u16)], luminance: f64, node: &Node, context: &mut Context) {
     let scalable =
         |light: &DistantLight| matches!(light, DistantLight::Background(_) | DistantLight::EnvMap(_));
-    let total: f64 = lights.iter().filter(|l| scalable(l)).map(Distant::total_luminance).sum();
+    let scaled = lights.iter().map(|(light, _)| light).filter(|light| scalable(light));
+    let total: f64 = scaled.map(Distant::total_luminance).sum();
     let factor = luminance * 4.0 * PI / total;
-    if !lights.iter().any(scalable) {
+    if !lights.iter().any(|(light, _)| scalable(light)) {
         return;
     }
     if !factor.is_finite() {
@@ -152,7 +155,7 @@ fn scale_to(lights: &mut Vec<DistantLight>, luminance: f64, node: &Node, context
         );
         return;
     }
-    for light in lights {
+    for (light, _) in lights {
         match light {
             DistantLight::Background(even) => {
                 even.0 = even.0.scaled(factor);

@@ -1,8 +1,8 @@
 //! What materials emit.
 
 use super::Context;
+use super::light_layers::{Layer, Layers};
 use crate::codes;
-use crate::settings::Settings;
 use indigo_decl::Node;
 use indigo_diag::{Diagnostic, Sink, Span};
 use indigo_scatter::materials::fields::EMISSION_FIELDS;
@@ -15,38 +15,8 @@ pub(super) struct Emission<'a> {
     pub(super) radiance: Spectrum,
     /// The map that multiplies it.
     pub(super) texture: Option<&'a Node>,
-    /// What the layer multiplies in the end.
-    pub(super) layer: Option<Spectrum>,
-}
-
-/// Factors of the layers in their order: nothing where one is as it is, and black where one is switched off.
-pub(super) struct Layers(Vec<Option<Spectrum>>);
-
-impl Layers {
-    pub(super) fn new(settings: &Settings, sink: &mut Sink) -> Self {
-        let factor = |layer: &Node, sink: &mut Sink| {
-            layer.disregard_field("name");
-            let scale = layer.node("layer_scale").map(|scale| read_factor(scale, sink));
-            if layer.bool("enabled") { scale } else { Some(Spectrum::BLACK) }
-        };
-        Self(settings.nodes("layer_setting").map(|layer| factor(layer, sink)).collect())
-    }
-
-    /// What a layer multiplies light by.
-    pub(super) fn factor(&self, layer: i64) -> Option<Spectrum> {
-        usize::try_from(layer).ok().and_then(|i| self.0.get(i)).cloned().flatten()
-    }
-}
-
-/// A factor on light. A black body's is its colour alone.
-fn read_factor(node: &Node, sink: &mut Sink) -> Spectrum {
-    let factor = read::factor(node, sink);
-    if node.block.name != "blackbody" {
-        return factor;
-    }
-    let luminance = factor.luminance();
-    let relative = node.real("gain") * Spectrum::uniform(1.0).luminance() / luminance;
-    if relative.is_finite() { factor.scaled(relative) } else { Spectrum::BLACK }
+    /// The layer that it belongs to.
+    pub(super) layer: Layer,
 }
 
 /// Whether a kind of material has fields of emission, and one of them is given.
@@ -77,9 +47,8 @@ impl<'a> Emission<'a> {
             (None, Some(colour)) => read::emission(colour, sink),
             (None, None) => Spectrum::uniform(1.0),
         };
-        let layer = layers.factor(kind.int("layer"));
-        let is_dark = radiance.max() <= 0.0 || layer.as_ref().is_some_and(|l| l.max() <= 0.0);
-        (!is_dark).then_some(Self { radiance, texture, layer })
+        let layer = layers.of(kind.int("layer"));
+        (radiance.max() > 0.0).then_some(Self { radiance, texture, layer })
     }
 }
 

@@ -17,7 +17,7 @@ use indigo_light::sky::preetham::{self, PreethamSky};
 use indigo_light::sky::space;
 use indigo_math::{Mat3, Vec3d};
 use indigo_spectrum::adaptation::rec709_of;
-use indigo_spectrum::read;
+use indigo_spectrum::{Spectrum, read};
 use indigo_texture::Curve;
 
 /// All distant lights of a scene; their radiances add.
@@ -25,16 +25,21 @@ pub(super) fn distant_lights(
     root: &Node,
     materials: &MaterialTable,
     context: &mut Context,
-) -> Vec<DistantLight> {
+) -> Vec<(DistantLight, u16)> {
     let mut lights = vec![];
+    // What names no layer is of the first.
+    let layer = materials.layer(0);
     if let Some(spectrum) = root.node("background").and_then(|b| b.node("spectrum")) {
-        lights.push(Background(read::emission(spectrum, context.sink)).into());
+        let colour = layer.colour.clone().unwrap_or(Spectrum::uniform(1.0));
+        let radiance = read::emission(spectrum, context.sink).times(&colour);
+        lights.push((Background(radiance).into(), layer.group));
     }
     if let Some(node) = root.node("skylight") {
-        lights.extend(skylight(node, context));
+        lights.extend(skylight(node, materials, context));
     }
     if let Some(map) = root.node("env_map").and_then(Node::alternative) {
-        lights.extend(env_map(map, context).map(DistantLight::from));
+        layer.keep_colour_out_of(map, context.sink);
+        lights.extend(env_map(map, context).map(|map| (DistantLight::from(map), layer.group)));
     }
     if let Some(settings) = root.node("background_settings") {
         lights.extend(background::lights(settings, materials, context));
@@ -42,8 +47,13 @@ pub(super) fn distant_lights(
     lights
 }
 
-/// The sun, and the sky unless it is black.
-pub(super) fn skylight(node: &Node, context: &mut Context) -> Vec<DistantLight> {
+/// The sun, and the sky unless it is black, each with its layer.
+pub(super) fn skylight(
+    node: &Node,
+    materials: &MaterialTable,
+    context: &mut Context,
+) -> Vec<(DistantLight, u16)> {
+    let [sun_layer, sky_layer] = ["sun_layer", "sky_layer"].map(|field| materials.layer(node.int(field)));
     let sundir = Vec3d::from(node.vec3("sundir"));
     let turbidity = node.real("turbidity");
     let model = node.text("model").value;
@@ -66,7 +76,8 @@ pub(super) fn skylight(node: &Node, context: &mut Context) -> Vec<DistantLight> 
     };
     if is_outside {
         let disc = space::sun(Sun::solid_angle(sun::RADIUS));
-        return vec![Sun::new(towards, sun::RADIUS, disc).into()];
+        sun_layer.keep_colour_out_of(node, context.sink);
+        return vec![(Sun::new(towards, sun::RADIUS, disc).into(), sun_layer.group)];
     }
     let [least, most] = if is_preetham { preetham::TURBIDITY } else { hosek::TURBIDITY };
     let known = turbidity.clamp(least, most);
@@ -87,7 +98,11 @@ pub(super) fn skylight(node: &Node, context: &mut Context) -> Vec<DistantLight> 
     } else {
         (SkyModel::Hosek(Box::new(HosekSky::new(elevation, known))), hosek::sun(elevation, known))
     };
-    vec![Sky::new(towards, model).into(), Sun::new(towards, sun::RADIUS, disc).into()]
+    for layer in [&sky_layer, &sun_layer] {
+        layer.keep_colour_out_of(node, context.sink);
+    }
+    let (sky, sun) = (Sky::new(towards, model), Sun::new(towards, sun::RADIUS, disc));
+    vec![(sky.into(), sky_layer.group), (sun.into(), sun_layer.group)]
 }
 
 fn env_map(node: &Node, context: &mut Context) -> Option<EnvMap> {

@@ -3,6 +3,7 @@
 use super::Context;
 use super::emission::Emission;
 use super::geometry::EmittingPart;
+use super::light_layers::Layer;
 use super::materials::{MaterialTable, UvSets};
 use crate::codes;
 use indigo_decl::Node;
@@ -160,8 +161,14 @@ pub(super) fn emitting_part(
         (None, Some((scale, flux))) => to_flux(scale, flux, lamp, errors_before, context.sink),
         (None, None) => lamp,
     };
-    match &emission.layer {
-        Some(layer) => lamp.times(layer),
+    in_layer(lamp, &emission.layer)
+}
+
+/// A lamp as its layer has it.
+pub(super) fn in_layer(lamp: AreaLight, layer: &Layer) -> AreaLight {
+    let lamp = lamp.in_group(layer.group);
+    match &layer.colour {
+        Some(colour) => lamp.times(colour),
         None => lamp,
     }
 }

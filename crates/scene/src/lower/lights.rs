@@ -2,12 +2,14 @@
 
 use super::geometry::Geometry;
 use super::lamps::{self, Shape};
+use super::light_layers::Layers;
 use super::materials::{MaterialTable, UvSets};
 use super::meshes::{Mesh, MeshTable};
 use super::{Context, environment, placement};
 use crate::codes;
 use indigo_decl::Node;
 use indigo_diag::{Diagnostic, Sink};
+use indigo_film::LightMix;
 use indigo_geom::{Accel, MeshBuffers, Object, TriangleMesh};
 use indigo_light::{AreaLight, DistantLight, LightTable, Portals};
 use indigo_math::{Transform, Vec3d};
@@ -16,7 +18,8 @@ use indigo_math::{Transform, Vec3d};
 #[derive(Default)]
 pub(super) struct Lights {
     lamps: Vec<AreaLight>,
-    distant: Vec<DistantLight>,
+    /// Each with the layer that it belongs to.
+    distant: Vec<(DistantLight, u16)>,
     /// Corners of the portals' triangles in render space, counter-clockwise seen from the interior.
     portals: Vec<[Vec3d; 3]>,
 }
@@ -67,7 +70,8 @@ impl Lights {
             let shape = Shape::new(geometry.object(object), meshes.triangles(mesh));
             shape.report_rounding(node.span, context.sink);
             let uv = meshes.known(&name.value).map_or(UvSets::Named(&[]), Mesh::uv);
-            self.lamps.push(lamps::mesh_light(node, &shape, uv, materials, context));
+            let lamp = lamps::mesh_light(node, &shape, uv, materials, context);
+            self.lamps.push(lamps::in_layer(lamp, &materials.layer(0)));
         }
     }
 
@@ -89,7 +93,8 @@ impl Lights {
             let object = geometry.add(placed, node.block.name, [materials.black()], Some(light));
             let shape = Shape::new(geometry.object(object), meshes.triangles(mesh));
             shape.report_rounding(node.span, sink);
-            self.lamps.push(lamps::rectangle_light(node, &shape, sink));
+            let lamp = lamps::rectangle_light(node, &shape, sink);
+            self.lamps.push(lamps::in_layer(lamp, &materials.layer(0)));
         }
     }
 
@@ -126,14 +131,29 @@ impl Lights {
         );
     }
 
-    /// The table of all lights.
-    pub(super) fn into_table(self, geometry: &Geometry, accel: &Accel) -> LightTable {
+    /// The table of all lights, and how bright their groups are in the picture.
+    pub(super) fn into_table(
+        self,
+        geometry: &Geometry,
+        accel: &Accel,
+        layers: &Layers,
+    ) -> (LightTable, LightMix) {
         let bounds = accel.bounds();
         let (center, size) = (bounds.center().cast::<f64>(), bounds.size().cast::<f64>());
         // The sphere is a little larger than the box's, so that rounding keeps everything inside.
         let sphere = if size.is_finite() { (center, 0.5001 * size.length()) } else { (Vec3d::ZERO, 1.0) };
         let portals = Portals::new(&self.portals);
-        LightTable::with_portals(self.lamps, self.distant, geometry.lights(), sphere, portals)
+        let of_lamps = self.lamps.iter().map(AreaLight::group);
+        let (mix, numbers) = layers.mix(of_lamps.chain(self.distant.iter().map(|(_, group)| *group)));
+        let number = |group: u16| numbers[usize::from(group)];
+        let in_order = |lamp: AreaLight| {
+            let group = number(lamp.group());
+            lamp.in_group(group)
+        };
+        let lamps = self.lamps.into_iter().map(in_order).collect();
+        let (distant, groups): (Vec<_>, Vec<_>) = self.distant.into_iter().unzip();
+        let table = LightTable::with_portals(lamps, distant, geometry.lights(), sphere, portals);
+        (table.with_distant_groups(groups.into_iter().map(number).collect()), mix)
     }
 }
 

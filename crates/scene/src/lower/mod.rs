@@ -14,6 +14,7 @@ mod environment;
 mod geometry;
 mod keyframes;
 mod lamps;
+mod light_layers;
 mod lights;
 mod materials;
 mod media;
@@ -37,9 +38,11 @@ use indigo_diag::{Diagnostic, Severity, Sink, SourceId, SourceMap, Span};
 use indigo_formats::FormatError;
 use indigo_formats::image::{self, Image};
 use indigo_geom::{Accel, BuildError, BuildOptions, Movement, Object, SurfacePoint};
+use indigo_imaging::PictureSettings;
 use indigo_math::Vec3d;
 use indigo_scatter::{Material, MediumStack};
 use indigo_spectrum::WavelengthSampler;
+use light_layers::Layers;
 use materials::MaterialTable;
 use meshes::MeshTable;
 use std::collections::HashSet;
@@ -182,7 +185,9 @@ pub(crate) fn development(
     let output = picture::output(settings, path);
     let node = find_camera(root, context.sink);
     let camera = node.and_then(|c| camera::parameters(c, settings, film.as_ref(), &mut context));
+    let layers = Layers::new(settings, context.sink);
     let picture = picture::picture(root, node.zip(camera.as_ref()), settings, &mut context)?;
+    let picture = PictureSettings { lights: layers.all(), ..picture };
     let position = node.map_or(Vec3d::ZERO, |c| camera::position(c, context.sink));
     let camera = camera?.facts(position, &picture);
     Some(Development { transport, size: film?.size, picture, camera, output })
@@ -192,7 +197,6 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
     let transport = transport(settings);
     let film = picture::film(settings, context.sink);
     let output = picture::output(settings, path);
-    let decisive = film.as_ref().map(|film| picture::decisive(settings, film, &transport));
     let camera_node = find_camera(root, context.sink);
     if camera_node.is_none() {
         camera::settings_without_camera(settings);
@@ -221,6 +225,8 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
     meshes.disregard_unused();
     materials.disregard_unused();
 
+    let layers = materials.layers();
+    let decisive = film.as_ref().map(|film| picture::decisive(settings, film, &transport, layers));
     let picture = picture::picture(root, camera_node.zip(camera.as_ref()), settings, context);
     // Read before anything can end this, since what nothing reads is reported.
     let (threshold, caching) = (settings.int("bih_tri_threshold").value, settings.bool("cache_trees"));
@@ -241,7 +247,7 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
     }
     let placed = (geometry.objects(), geometry.take_movements());
     let accel = accel(meshes, placed, threshold, caching, root.span, context)?;
-    let lights = lights.into_table(&geometry, &accel);
+    let (lights, mix) = lights.into_table(&geometry, &accel, materials.layers());
     let lamps: Vec<Option<u32>> = geometry.lights().collect();
     let (first_slot, slots, objects) = geometry.into_slots();
     let names = Names { objects, materials: materials.take_names() };
@@ -251,6 +257,7 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
         matches!(materials[slots[slot as usize] as usize], Material::Null)
     };
     let (camera, picture) = (camera::focus(camera?, &accel, is_unseen), picture?);
+    let picture = PictureSettings { lights: mix, ..picture };
     let camera_facts = camera.facts(origin, &picture);
     let camera = camera.into_camera()?;
     let mut scene = Scene {

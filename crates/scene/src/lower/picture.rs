@@ -2,6 +2,7 @@
 
 use super::Context;
 use super::camera::Unfocused;
+use super::light_layers::Layers;
 use crate::codes;
 use crate::scene::{
     DIFFRACTION_OF_RAYS, FOREGROUND_ALPHA, FilmSettings, OutputSettings, RENDER_REGION, TransportSettings,
@@ -10,7 +11,7 @@ use crate::scene::{
 use crate::settings::Settings;
 use indigo_decl::Node;
 use indigo_diag::{Diagnostic, Sink, Spanned};
-use indigo_film::{FilmFilter, FilmSize, Filter};
+use indigo_film::{FilmFilter, FilmSize, Filter, LightMix};
 use indigo_formats::response;
 use indigo_imaging::{Bloom, Exposure, PictureSettings, Region, Response, ToneMapping, WhiteBalance, png};
 use indigo_spectrum::illuminant;
@@ -68,6 +69,7 @@ pub(super) fn decisive(
     settings: &Settings,
     film: &FilmSettings,
     transport: &TransportSettings,
+    layers: &Layers,
 ) -> Vec<(String, String)> {
     let size = film.size;
     // Only Metropolis sampling looks at it.
@@ -85,9 +87,7 @@ pub(super) fn decisive(
         ("vignetting", settings.bool("vignetting").to_string()),
         (DIFFRACTION_OF_RAYS, by_rays.to_string()),
     ];
-    if settings.nodes("layer_setting").next().is_some() {
-        values.push(("layer_setting", settings.listed_blocks("layer_setting")));
-    }
+    values.extend(layers.decisive().map(|value| ("layer_setting", value)));
     if !is_mask {
         // A mask is rendered in one way, whatever these say.
         values.extend([
@@ -159,6 +159,8 @@ pub(super) fn picture(
     });
     let watermark = settings.bool("watermark");
     Some(PictureSettings {
+        // They are known to others.
+        lights: LightMix::default(),
         diffraction: opening.filter(),
         bloom: bloom(camera),
         tone_mapping,

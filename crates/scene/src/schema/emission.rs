@@ -51,17 +51,20 @@ pub static IES_PROFILE: Block = Block::new(
 /// The declaration of `layer_setting`.
 pub static LAYER_SETTING: Block = Block::new(
     "layer_setting",
-    "How bright the materials of one `layer` shine: the first of these is for layer 0, and so on. They are scaled before \
-     rendering; a finished picture holds them together.",
+    "How bright the lights of one `layer` are: the first of these is for layer 0, and so on. Lights that name no layer are of layer 0, \
+     and those of a layer that has no setting are as they are. The film keeps the light of each layer apart, of up to 15, so that their \
+     brightness may be changed after the render, in the window or here: `--tonemap` and a film that is gone on with take it as it \
+     is then. Each layer takes as much memory as a film without layers.",
     &[
         Field::new("name", Kind::Text, Presence::Optional, "What the layer is called."),
-        Field::new("enabled", Kind::Bool, Presence::Default("true"), "Whether they shine at all."),
+        Field::new("enabled", Kind::Bool, Presence::Default("true"), "Whether their light is in the picture. What is switched off is rendered all the same, and can be switched on later."),
         Field::new(
             "layer_scale",
             Kind::OneOf(&SPECTRUM),
             Presence::Optional,
-            "What multiplies their emission: a colour (1, 1, 1) changes nothing. Of a `blackbody` it is the colour with the \
-             luminance of (1, 1, 1), times its gain.",
+            "What multiplies their light: a colour (1, 1, 1) changes nothing. Of a `blackbody` it is the colour with the \
+             luminance of (1, 1, 1), times its gain. Its brightness is that of the picture, as a ratio of luminances; its colour is rendered, \
+             so that a film of another colour is another film. The sun, the sky and pictures of surroundings keep their colours.",
         ),
     ],
 )

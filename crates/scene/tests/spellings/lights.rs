@@ -1,6 +1,7 @@
 //! Light: materials that emit, what scales them, and surroundings in the form of a material.
 
 use super::common::*;
+use indigo_scene::Scene;
 use std::f64::consts::PI;
 
 /// A square of the material `m` alone, of 1 m².
@@ -90,52 +91,129 @@ fn profiles_are_of_a_material_and_may_be_scaled() {
     assert_same([&old, &model("", &of_m), &model("", &format!("{of_m}{dim}"))]);
 }
 
-#[test]
-fn layers_dim_and_switch_off() {
-    let settings = |scale: &str| {
-        format!(
-            "<renderer_settings><layer_setting/><layer_setting><name>lamps</name>{scale}</layer_setting></renderer_settings>"
-        )
-    };
-    // Settings are one element: the test's own come first and are replaced.
-    let with = |scale: &str| {
-        let scene = model("<layer>1</layer>", "");
-        scene + LIGHT + &settings(&format!("<enabled>true</enabled><layer_scale>{scale}</layer_scale>"))
-    };
-    let loaded_with = |elements: &str| {
-        let loaded = loaded(elements);
-        let found = findings(&loaded);
-        assert!(found.len() == 1 && found[0].1.starts_with("W0103"), "{found:?}");
-        dump(&loaded.scene.expect("a scene"))
-    };
-    let white = "<rgb><rgb>1 1 1</rgb><gain>1</gain></rgb>";
-    let half = "<rgb><rgb>1 1 1</rgb><gain>0.5</gain></rgb>";
-    let dimmed =
-        model("<emission><constant><uniform><value>0.5</value></uniform></constant></emission>", "") + LIGHT;
-    let settings_of_none = settings("");
-    assert_eq!(loaded_with(&with(half)), loaded_with(&(dimmed + &settings_of_none)));
-    assert_ne!(loaded_with(&with(half)), loaded_with(&with(white)));
-    let off = model("<layer>1</layer>", "") + LIGHT + &settings("<enabled>false</enabled>");
-    let dark = of("", &format!("<model>{PLACE}</model>")) + LIGHT + &settings_of_none;
-    assert_eq!(loaded_with(&off), loaded_with(&dark));
+/// A scene with settings of its layers, beside those that each test has.
+fn with_layers(elements: &str, layers: &str, warnings: &[&str]) -> Scene {
+    let settings = format!("<renderer_settings>{layers}</renderer_settings>");
+    let double = "W0103 <renderer_settings> is given more than once";
+    scene_with(&(elements.to_owned() + &settings), &[&[double], warnings].concat())
+}
+
+/// Names and gains of a scene's groups of lights.
+fn groups(scene: &Scene) -> Vec<(&str, f64)> {
+    let gain = |group: &indigo_film::LightGroup| if group.is_on { group.gain } else { 0.0 };
+    scene.picture.lights.0.iter().map(|group| (&*group.name, gain(group))).collect()
 }
 
 #[test]
-fn layers_dim_surroundings_too() {
-    let even = "<diffuse><base_emission><uniform><value>5</value></uniform></base_emission><layer>0</layer></diffuse>";
-    let settings = "<renderer_settings><layer_setting><layer_scale><uniform><value>0.5</value></uniform></layer_scale></layer_setting></renderer_settings>";
-    let with = |kind: &str, warnings: &[&str]| {
-        let double = "W0103 <renderer_settings> is given more than once";
-        scene_with(&(background(kind, "") + settings), &[&[double], warnings].concat())
+fn layers_are_dimmed_and_switched_off_after_the_render() {
+    let scene = |layers: &str| with_layers(&(model("<layer>1</layer>", "") + LIGHT), layers, &[]);
+    let lamps = |is_on: bool, scale: &str| {
+        let lamps = format!("<name>lamps</name><enabled>{is_on}</enabled><layer_scale>{scale}</layer_scale>");
+        scene(&format!("<layer_setting/><layer_setting>{lamps}</layer_setting>"))
     };
-    let map = "<diffuse><emission><texture><path>sky.hdr</path><exponent>1</exponent></texture></emission></diffuse>";
-    for kind in [even, map] {
-        let (whole, half) =
-            (surroundings(&scene_with(&background(kind, ""), &[])), surroundings(&with(kind, &[])));
-        assert!((half / whole - 0.5).abs() < 1e-6, "{kind}: {half} of {whole}");
+    let rgb = |rgb: &str, gain: f64| format!("<rgb><rgb>{rgb}</rgb><gain>{gain}</gain></rgb>");
+    let white = lamps(true, &rgb("1 1 1", 1.0));
+    assert_eq!(groups(&white), [("layer 0", 1.0), ("lamps", 1.0)]);
+    for (other, gain) in [
+        (lamps(true, &rgb("1 1 1", 0.5)), 0.5),
+        (lamps(true, &rgb("0.5 0.5 0.5", 1.0)), 0.5),
+        (lamps(true, &rgb("0 0 0", 1.0)), 0.0),
+        (lamps(false, &rgb("1 1 1", 0.5)), 0.0),
+    ] {
+        let found = groups(&other)[1].1;
+        assert!((found - gain).abs() < 1e-6, "{found} instead of {gain}");
+        // What is rendered is the same, and so is the film.
+        assert_eq!(dump(&other), dump(&white));
+        assert_eq!(other.identity, white.identity);
     }
-    let sunsky = "<sunsky><sundir>0 0.6 1</sundir></sunsky>";
-    with(sunsky, &["W0321 sun and sky keep their brightness"]);
+    // A colour is rendered, with the luminance of white.
+    let red = lamps(true, &rgb("1 0.2 0.2", 1.0));
+    assert_ne!(dump(&red), dump(&white));
+    assert_ne!(red.identity, white.identity);
+    assert_eq!(dump(&red), dump(&lamps(true, &rgb("1 0.2 0.2", 3.0))));
+    // Of two narrow bands, too, that are the same at most wavelengths.
+    let band = |start: u32| {
+        let peak = format!(
+            "<peak><peak_min>{start}</peak_min><peak_width>20</peak_width><base_value>0</base_value><peak_value>1</peak_value></peak>"
+        );
+        lamps(true, &peak)
+    };
+    assert_ne!(band(462).identity, band(512).identity);
+    assert_eq!(band(462).identity, band(462).identity);
+    // Of a black body only the gain is brightness.
+    let warm = lamps(true, "<blackbody><temperature>2700</temperature><gain>0.25</gain></blackbody>");
+    assert_eq!(groups(&warm)[1].1, 0.25);
+    assert_ne!(dump(&warm), dump(&white));
+}
+
+#[test]
+fn lights_are_of_the_layers_that_they_name() {
+    let layer = |name: &str, gain: f64| {
+        format!(
+            "<layer_setting><name>{name}</name><layer_scale><uniform><value>{gain}</value></uniform></layer_scale></layer_setting>"
+        )
+    };
+    let sky = |layers: &str| {
+        format!("{CAMERA}<skylight><sundir>0 0.6 1</sundir><turbidity>2</turbidity>{layers}</skylight>")
+    };
+    let three = layer("a", 2.0) + &layer("b", 3.0) + &layer("c", 4.0);
+    // Those that have no light are not in the film.
+    let of = |elements: &str| {
+        let scene = with_layers(elements, &three, &[]);
+        groups(&scene).iter().map(|(name, _)| (*name).to_owned()).collect::<Vec<_>>()
+    };
+    assert_eq!(of(&sky("")), ["a"]);
+    assert_eq!(of(&sky("<sun_layer>1</sun_layer><sky_layer>2</sky_layer>")), ["b", "c"]);
+    assert_eq!(of(&sky("<sun_layer>1</sun_layer><sky_layer>7</sky_layer>")), ["b", "other lights"]);
+    assert_eq!(of(&meshlight("")), ["a"]);
+    let sunsky = "<sunsky><sundir>0 0.6 1</sundir><sun_layer>2</sun_layer><sky_layer>1</sky_layer></sunsky>";
+    assert_eq!(of(&background(sunsky, "")), ["b", "c"]);
+    // Without layers nothing is kept apart.
+    assert_eq!(groups(&scene_with(&sky("<sun_layer>1</sun_layer>"), &[])), []);
+    // Names are told apart.
+    let twice = with_layers(
+        &sky("<sky_layer>1</sky_layer><sun_layer>0</sun_layer>"),
+        &(layer("a", 2.0) + &layer("a", 3.0)),
+        &[],
+    );
+    let names = groups(&twice);
+    assert_eq!(names.iter().map(|(name, _)| *name).collect::<Vec<_>>(), ["a", "a (1)"]);
+    assert!((names[1].1 - 3.0).abs() < 1e-9, "{names:?}");
+    // The sun's colour is its own.
+    let red = "<layer_setting><layer_scale><rgb><rgb>1 0 0</rgb></rgb></layer_scale></layer_setting>";
+    let keeps = "W0321 this light keeps its colour";
+    with_layers(&sky(""), red, &[keeps, keeps]);
+}
+
+#[test]
+fn more_layers_than_a_film_has_are_rendered_in() {
+    let layers =
+        "<layer_setting><layer_scale><uniform><value>2</value></uniform></layer_scale></layer_setting>";
+    let even = |layer: u32| {
+        let kind = format!(
+            "<diffuse><base_emission><uniform><value>5</value></uniform></base_emission><layer>{layer}</layer></diffuse>"
+        );
+        background(&kind, "")
+    };
+    let warnings = ["W0320 only the first 15 layers are kept apart"];
+    let [apart, baked] = [14, 17].map(|layer| with_layers(&even(layer), &layers.repeat(18), &warnings));
+    assert_eq!(groups(&apart), [("layer 14", 2.0)]);
+    assert_eq!(groups(&baked), [("other lights", 1.0)]);
+    assert!((surroundings(&baked) / surroundings(&apart) - 2.0).abs() < 1e-6);
+}
+
+#[test]
+fn layers_are_of_surroundings_too() {
+    let even = "<diffuse><base_emission><uniform><value>5</value></uniform></base_emission><layer>0</layer></diffuse>";
+    let map = "<diffuse><emission><texture><path>sky.hdr</path><exponent>1</exponent></texture></emission></diffuse>";
+    let half =
+        "<layer_setting><layer_scale><uniform><value>0.5</value></uniform></layer_scale></layer_setting>";
+    for kind in [even, map] {
+        let (whole, halved) =
+            (scene_with(&background(kind, ""), &[]), with_layers(&background(kind, ""), half, &[]));
+        assert_eq!(surroundings(&whole), surroundings(&halved), "{kind}");
+        assert_eq!(groups(&halved), [("layer 0", 0.5)], "{kind}");
+    }
 }
 
 #[test]
@@ -184,8 +262,13 @@ fn what_cannot_shine_is_told() {
             sphere.replace(">m<", ">c<")
         )
     };
-    let warning = "W0320 <coating> is of a later format version and not rendered: m stands in";
-    scene_with(&coated(other), &[warning]);
+    // A coat over what is diffuse is rendered, but for what it absorbs.
+    scene_with(&coated(other), &[]);
+    let absorbs = other.replace("<value>0<", "<value>9<");
+    scene_with(&coated(&absorbs), &["W0102 <absorption> of a <coating> is of a later format version"]);
+    let double =
+        coated(other) + &material("cc", &other.replace(">m<", ">c<")) + &sphere.replace(">m<", ">cc<");
+    scene_with(&double, &["W0320 <coating> is of a later format version and not rendered: c stands in"]);
     scene_with(
         &coated(
             "<fast_sss><albedo><constant><uniform><value>0.5</value></uniform></constant></albedo></fast_sss>",

@@ -5,9 +5,10 @@
 
 use super::Layers;
 use super::region::Region;
+use super::shares::Shares;
 use crate::sampler::{Block, PrimarySample, SobolSample};
-use crate::technique::{Events, Record, Tracer};
-use indigo_film::{FilmDelta, FilmFilter};
+use crate::technique::{Events, Found, Part, Record, Tracer};
+use indigo_film::{FilmDelta, FilmFilter, FilmSample};
 use indigo_math::{Float, Real, Vec2, rng};
 use indigo_scene::Scene;
 use indigo_spectrum::SampledSpectrum;
@@ -29,6 +30,16 @@ pub struct Independent {
     layers: Layers,
     /// Whether every other round through the internal pixels is independent of the one before.
     pub(super) is_halved: bool,
+}
+
+/// A sample that was traced.
+struct Sample {
+    /// Its internal pixel.
+    pixel: [u32; 2],
+    on_film: FilmSample,
+    found: Found,
+    /// What it covers, as it counts on the film.
+    alpha: f32,
 }
 
 impl Independent {
@@ -90,9 +101,18 @@ impl Independent {
     ) -> u64 {
         let pass = unit / self.units_per_pass();
         let [columns, rows] = self.tile(unit);
-        for y in rows {
-            for x in columns.clone() {
-                self.render_sample(scene, [x, y], pass, tracer, delta, record);
+        let pixels = rows.flat_map(|y| columns.clone().map(move |x| [x, y]));
+        if self.layers.are_grouped() {
+            let mut room = vec![];
+            let mut shares = Shares::new(&scene.lights, record, &mut room);
+            for pixel in pixels {
+                let sample = self.trace(scene, pixel, pass, tracer, &mut shares);
+                self.add_shares(&sample, &shares, delta);
+            }
+        } else {
+            for pixel in pixels {
+                let sample = self.trace(scene, pixel, pass, tracer, record);
+                self.add(&sample, tracer, delta);
             }
         }
         self.samples_of(unit)
@@ -114,16 +134,16 @@ impl Independent {
         self.tile(unit).iter().map(|range| u64::from(range.end - range.start)).product()
     }
 
-    /// Sample number `pass` of an output pixel.
-    fn render_sample(
+    /// Traces sample number `pass` of an output pixel.
+    #[inline]
+    fn trace(
         &self,
         scene: &Scene,
         pixel: [u32; 2],
         pass: u64,
         tracer: &mut Tracer,
-        delta: &mut FilmDelta,
         record: &mut impl Record,
-    ) {
+    ) -> Sample {
         let size = self.region.size;
         let [x, y] = self.internal_pixel(pixel, pass);
         let stream = u64::from(y) << 32 | u64::from(x);
@@ -143,8 +163,14 @@ impl Independent {
             found.path.alpha
         };
         let alpha = (alpha * on_film.weight).to_f64() as f32;
-        let layers = self.layers;
-        let path = &found.path;
+        Sample { pixel: [x, y], on_film, found, alpha }
+    }
+
+    /// Puts a sample on the film.
+    #[inline]
+    fn add(&self, sample: &Sample, tracer: &Tracer, delta: &mut FilmDelta) {
+        let Sample { pixel: [x, y], on_film, found, alpha } = sample;
+        let (layers, path) = (self.layers, &found.path);
         // What leaves the scene has met nothing.
         let (direct, background) = if path.alpha == 0.0 && layers.background != layers.direct {
             (SampledSpectrum::ZERO, path.direct)
@@ -152,25 +178,51 @@ impl Independent {
             (path.direct, SampledSpectrum::ZERO)
         };
         let mut add = |layer, light, alpha| {
-            delta.add_sample(layer, x, y, found.sensor.xyz(&(light * on_film.weight)), alpha);
+            delta.add_sample(layer, *x, *y, found.sensor.xyz(&(light * on_film.weight)), alpha);
         };
         if layers.indirect == layers.direct {
-            add(layers.direct, direct + path.indirect, alpha);
+            add(layers.direct, direct + path.indirect, *alpha);
         } else {
-            add(layers.direct, direct, alpha);
+            add(layers.direct, direct, *alpha);
             add(layers.indirect, path.indirect, 0.0);
         }
         if layers.background != layers.direct {
             add(layers.background, background, 0.0);
         }
-        if self.is_bidirectional {
-            // Counted one by one, so that what a unit that fails leaves behind is counted rightly.
-            layers.each().for_each(|layer| delta.add_samples(layer + 1, 1));
-        }
+        self.count_light_path(delta);
         for splat in tracer.splats() {
             let xyz = found.sensor.xyz(&splat.radiance);
             let layer = layers.of(splat.part);
             delta.splat(layer + 1, self.region.in_pixels(splat.position), xyz, &self.filter);
+        }
+    }
+
+    /// Puts a sample on the film by the groups of lights that sent it.
+    fn add_shares<R: Record>(&self, sample: &Sample, shares: &Shares<R>, delta: &mut FilmDelta) {
+        let Sample { pixel: [x, y], on_film, found, alpha } = sample;
+        // What all layers together cover is told in the first.
+        let first = self.layers.of(Part::Direct);
+        for layer in self.layers.each() {
+            let own = |part, group| self.layers.of_group(part, group) == layer;
+            let light = shares.found().iter().filter(|s| s.at.is_none() && own(s.part, s.group));
+            let light = light.fold(SampledSpectrum::ZERO, |sum, share| sum + share.radiance);
+            let alpha = if layer == first { *alpha } else { 0.0 };
+            delta.add_sample(layer, *x, *y, found.sensor.xyz(&(light * on_film.weight)), alpha);
+        }
+        self.count_light_path(delta);
+        for share in shares.found() {
+            let Some(position) = share.at else { continue };
+            let xyz = found.sensor.xyz(&share.radiance);
+            let layer = self.layers.of_group(share.part, share.group);
+            delta.splat(layer + 1, self.region.in_pixels(position), xyz, &self.filter);
+        }
+    }
+
+    /// Counted one by one, so that what a unit that fails leaves behind is counted rightly.
+    #[inline]
+    fn count_light_path(&self, delta: &mut FilmDelta) {
+        if self.is_bidirectional {
+            self.layers.each().for_each(|layer| delta.add_samples(layer + 1, 1));
         }
     }
 

@@ -17,6 +17,7 @@ use super::Layers;
 use super::chain::{ChainSample, Mutation};
 use super::region::Region;
 use super::seeds::{self, Seeds};
+use super::shares::{Share, Shares};
 use crate::sampler::{Block, PrimarySample};
 use crate::technique::{Events, Record, Tracer};
 use indigo_film::{FilmDelta, FilmFilter};
@@ -132,7 +133,7 @@ impl Metropolis {
     ) -> u64 {
         let begun = unit - self.first;
         let (number, turn) = (begun % CHAINS, begun / CHAINS);
-        let mut run = Run { driver: self, scene, tracer, delta, key: self.key(number) };
+        let mut run = Run { driver: self, scene, tracer, delta, found: vec![], key: self.key(number) };
         if turn == 0 && !run.find_seeds() {
             return 0;
         }
@@ -178,6 +179,8 @@ struct Run<'a> {
     scene: &'a Scene,
     tracer: &'a mut Tracer,
     delta: &'a mut FilmDelta,
+    /// Room for what a sample finds, where groups of lights are kept apart.
+    found: Vec<Share>,
     key: u64,
 }
 
@@ -211,15 +214,30 @@ impl Run<'_> {
         let mutation = Mutation { max_change: self.driver.settings.max_change, key };
         let mut numbers = chain.sample.propose(mutation, step, is_large);
         let [u0, u1, ..] = numbers.block(Block::FILM);
-        let region = &self.driver.region;
+        let driver = self.driver;
+        let (region, layers) = (&driver.region, driver.layers);
         let position = region.position([u0, u1]);
-        let found = self.tracer.trace(self.scene, &mut numbers, position, self.driver.events, record);
         let state = &mut chain.proposal;
         state.splats.clear();
         (state.target, state.weight, state.refused) = (0.0, 0.0, 0);
         // Film positions are uniform over the region, not over the film.
         let film = region.in_pixels(position);
-        let layers = self.driver.layers;
+        if layers.are_grouped() {
+            let mut shares = Shares::new(&self.scene.lights, record, &mut self.found);
+            let found = self.tracer.trace(self.scene, &mut numbers, position, driver.events, &mut shares);
+            for share in shares.found() {
+                let layer = layers.of_group(share.part, share.group);
+                match share.at {
+                    None => state.add(film, found.sensor.xyz(&(share.radiance * region.share())), layer),
+                    Some(at) if region.holds(at) => {
+                        state.add(region.in_pixels(at), found.sensor.xyz(&share.radiance), layer);
+                    }
+                    Some(_) => {}
+                }
+            }
+            return state.refused;
+        }
+        let found = self.tracer.trace(self.scene, &mut numbers, position, driver.events, record);
         let mut add = |light, layer| state.add(film, found.sensor.xyz(&(light * region.share())), layer);
         if found.path.alpha == 0.0 {
             // What leaves the scene has met nothing.

@@ -5,10 +5,11 @@ mod independent;
 mod metropolis;
 mod region;
 mod seeds;
+mod shares;
 
 use crate::technique::{DIRECT, Events, Part, Record, Tracer};
 use independent::Independent;
-use indigo_film::{FilmDelta, LayerKind};
+use indigo_film::{FilmDelta, LayerKind, LightMix, mix};
 use indigo_scene::Scene;
 use metropolis::{CHAINS, MUTATIONS, Metropolis};
 use region::Region;
@@ -17,7 +18,7 @@ use region::Region;
 #[derive(Debug)]
 pub struct Driver {
     parts: Parts,
-    layers: Vec<(LayerKind, &'static str)>,
+    layers: Vec<(LayerKind, String)>,
     pixels: u64,
     rendered: indigo_math::Real,
     is_bidirectional: bool,
@@ -50,29 +51,33 @@ const METROPOLIS_BACKGROUND: &str = "metropolis background";
 
 /// Whether a layer of a film holds light that is scattered more than once alone.
 pub fn is_indirect(layer: &str) -> bool {
-    [CAMERA_INDIRECT, LIGHT_INDIRECT, METROPOLIS_INDIRECT].contains(&layer)
+    [CAMERA_INDIRECT, LIGHT_INDIRECT, METROPOLIS_INDIRECT].contains(&mix::split(layer).0)
 }
 
 /// Whether a layer of a film holds light of the surroundings alone that nothing has scattered or hidden.
 pub fn is_background(layer: &str) -> bool {
-    [CAMERA_BACKGROUND, LIGHT_BACKGROUND, METROPOLIS_BACKGROUND].contains(&layer)
+    [CAMERA_BACKGROUND, LIGHT_BACKGROUND, METROPOLIS_BACKGROUND].contains(&mix::split(layer).0)
 }
 
 /// The film's layers for the parts of light, some of which may be the same: for camera samples and mutations. Splats of
-/// light paths go to the layer behind.
+/// light paths go to the layer behind. Those of each group of lights come after those of the one before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Layers {
     direct: usize,
     indirect: usize,
     background: usize,
+    /// How many groups there are, and how many layers each has.
+    groups: usize,
+    per_group: usize,
 }
 
 impl Layers {
     /// All light in one layer.
     fn all_in(layer: usize) -> Self {
-        Self { direct: layer, indirect: layer, background: layer }
+        Self { direct: layer, indirect: layer, background: layer, groups: 1, per_group: 0 }
     }
 
+    /// That of a part of the first group's light.
     fn of(self, part: Part) -> usize {
         match part {
             Part::Background => self.background,
@@ -81,13 +86,48 @@ impl Layers {
         }
     }
 
+    /// That of a part of a group's light.
+    fn of_group(self, part: Part, group: u16) -> usize {
+        self.of(part) + usize::from(group) * self.per_group
+    }
+
+    /// Whether the light of some lights is kept apart from that of others.
+    fn are_grouped(self) -> bool {
+        self.groups > 1
+    }
+
     /// Those that differ, each once.
     fn each(self) -> impl Iterator<Item = usize> {
-        let Self { direct, indirect, background } = self;
+        let Self { direct, indirect, background, groups, per_group } = self;
         let others =
             [(indirect, indirect != direct), (background, ![direct, indirect].contains(&background))];
-        std::iter::once(direct)
-            .chain(others.into_iter().filter(|(_, differs)| *differs).map(|(layer, _)| layer))
+        let others = others.into_iter().filter(|(_, differs)| *differs).map(|(layer, _)| layer);
+        let first = std::iter::once(direct).chain(others);
+        first.flat_map(move |layer| (0..groups).map(move |group| layer + group * per_group))
+    }
+}
+
+/// The layers of a film, as they are asked for.
+struct Plan<'a> {
+    layers: Vec<(LayerKind, String)>,
+    mix: &'a LightMix,
+}
+
+impl Plan<'_> {
+    /// Adds layers of these kinds and parts of the light, once for each group of lights.
+    fn add(&mut self, parts: &[(LayerKind, &str)]) {
+        if self.mix.0.is_empty() {
+            self.layers.extend(parts.iter().map(|&(kind, part)| (kind, part.to_owned())));
+        }
+        for group in &self.mix.0 {
+            let names = parts.iter().map(|&(kind, part)| (kind, mix::layer_of_group(part, &group.name)));
+            self.layers.extend(names);
+        }
+    }
+
+    /// Layers whose first group begins at those of `layers`.
+    fn grouped(&self, layers: Layers, parts: usize) -> Layers {
+        Layers { groups: self.mix.0.len().max(1), per_group: parts, ..layers }
     }
 }
 
@@ -103,57 +143,34 @@ impl Driver {
     pub fn going_on(scene: &Scene, seed: u64, first: u64) -> Self {
         let transport = &scene.transport;
         let most = transport.max_depth;
-        let mut layers = vec![];
         let is_apart = scene.output.layers_exr;
         // Of what is direct anyhow nothing is kept apart.
         let is_split = is_apart && most > DIRECT;
-        let camera_layers = |layers: &mut Vec<(LayerKind, &'static str)>,
-                             [camera, light]: [&'static str; 2]| {
-            layers.push((LayerKind::PerPixel, camera));
-            if transport.bidirectional {
-                layers.push((LayerKind::PerScreen, light));
-            }
-            layers.len()
-        };
-        let independent = |events, layers| Box::new(Independent::new(scene, seed, events, layers));
+        let mut plan = Plan { layers: vec![], mix: &scene.picture.lights };
         let parts = match transport.metropolis {
             Some(settings) if !transport.hybrid => {
-                let mut add = |name, is_wanted: bool| {
-                    layers.extend(is_wanted.then_some((LayerKind::PerScreen, name)));
-                    layers.len() - 1
-                };
-                let direct = add(METROPOLIS, true);
-                let indirect = add(METROPOLIS_INDIRECT, is_split);
-                let background = if is_apart { add(METROPOLIS_BACKGROUND, true) } else { direct };
-                let layers = Layers { direct, indirect, background };
+                let layers = mutations(&mut plan, is_split, is_apart);
                 let driver = Metropolis::new(scene, [seed, first], Events::up_to(most), settings, layers);
                 Parts::Metropolis(Box::new(driver))
             }
             _ => {
-                let mut own = Layers::all_in(0);
-                let end = camera_layers(&mut layers, [CAMERA, LIGHT]);
                 // Of a hybrid indirect light is the other driver's.
-                if is_split && !transport.hybrid {
-                    own.indirect = end;
-                    camera_layers(&mut layers, [CAMERA_INDIRECT, LIGHT_INDIRECT]);
-                }
-                if is_apart {
-                    own.background = layers.len();
-                    camera_layers(&mut layers, [CAMERA_BACKGROUND, LIGHT_BACKGROUND]);
-                }
+                let own =
+                    samples(&mut plan, is_split && !transport.hybrid, is_apart, transport.bidirectional);
+                let independent = |events| Box::new(Independent::new(scene, seed, events, own));
                 match transport.metropolis {
                     Some(settings) if most > DIRECT => {
-                        let direct = independent(Events::up_to(DIRECT), own);
                         let rest = Events { least: DIRECT + 1, most };
-                        let layer = Layers::all_in(layers.len());
-                        layers.push((LayerKind::PerScreen, METROPOLIS_INDIRECT));
+                        let layer = plan.grouped(Layers::all_in(plan.layers.len()), 1);
+                        plan.add(&[(LayerKind::PerScreen, METROPOLIS_INDIRECT)]);
                         let indirect = Metropolis::new(scene, [seed, first / 2], rest, settings, layer);
-                        Parts::Hybrid(direct, Box::new(indirect))
+                        Parts::Hybrid(independent(Events::up_to(DIRECT)), Box::new(indirect))
                     }
-                    _ => Parts::Independent(independent(Events::up_to(most), own)),
+                    _ => Parts::Independent(independent(Events::up_to(most))),
                 }
             }
         };
+        let layers = plan.layers;
         let region = Region::of(scene);
         let drawn = if matches!(parts, Parts::Metropolis(_)) { region.grown(scene) } else { region };
         Self {
@@ -191,7 +208,7 @@ impl Driver {
     }
 
     /// The layers of the film that it fills.
-    pub fn layers(&self) -> &[(LayerKind, &'static str)] {
+    pub fn layers(&self) -> &[(LayerKind, String)] {
         &self.layers
     }
 
@@ -307,4 +324,41 @@ impl Driver {
         };
         (first..unit).step_by(step as usize)
     }
+}
+
+/// Plans the layers of Metropolis sampling.
+fn mutations(plan: &mut Plan, is_split: bool, is_apart: bool) -> Layers {
+    let mut layers = Layers::all_in(plan.layers.len());
+    let mut parts = vec![(LayerKind::PerScreen, METROPOLIS)];
+    if is_split {
+        layers.indirect = layers.direct + parts.len();
+        parts.push((LayerKind::PerScreen, METROPOLIS_INDIRECT));
+    }
+    if is_apart {
+        layers.background = layers.direct + parts.len();
+        parts.push((LayerKind::PerScreen, METROPOLIS_BACKGROUND));
+    }
+    plan.add(&parts);
+    plan.grouped(layers, parts.len())
+}
+
+/// Plans the layers of independent samples, whose light paths, if there are any, have one behind each.
+fn samples(plan: &mut Plan, is_split: bool, is_apart: bool, has_light_paths: bool) -> Layers {
+    let mut layers = Layers::all_in(plan.layers.len());
+    let mut parts = vec![];
+    let add = |parts: &mut Vec<_>, [camera, light]: [&'static str; 2]| {
+        parts.push((LayerKind::PerPixel, camera));
+        parts.extend(has_light_paths.then_some((LayerKind::PerScreen, light)));
+    };
+    add(&mut parts, [CAMERA, LIGHT]);
+    if is_split {
+        layers.indirect = layers.direct + parts.len();
+        add(&mut parts, [CAMERA_INDIRECT, LIGHT_INDIRECT]);
+    }
+    if is_apart {
+        layers.background = layers.direct + parts.len();
+        add(&mut parts, [CAMERA_BACKGROUND, LIGHT_BACKGROUND]);
+    }
+    plan.add(&parts);
+    plan.grouped(layers, parts.len())
 }

@@ -13,6 +13,7 @@ mod visibility;
 
 pub use tracer::{Found, Tracer};
 
+use indigo_light::Sender;
 use indigo_math::{Real, Vec2, Vec3};
 use indigo_spectrum::{SampledSpectrum, SampledWavelengths};
 
@@ -87,6 +88,14 @@ impl Part {
     pub fn scattered(events: u32) -> Self {
         if events > DIRECT { Self::Indirect } else { Self::Direct }
     }
+
+    /// Of light that a strategy (s, t) found: its path has s + t − 2 vertices between light and lens.
+    pub fn of((s, t): (u32, u32), sender: Sender) -> Self {
+        match (s + t, sender) {
+            (2, Sender::Environment(_)) => Self::Background,
+            (vertices, _) => Self::scattered(vertices - 2),
+        }
+    }
 }
 
 /// The ends of a path.
@@ -110,13 +119,14 @@ pub trait Record {
     fn vertex(&mut self, _from: End, _p: Vec3, _is_on_surface: bool) {}
 
     /// A contribution of strategy (s, t) at a film position of its own or at the camera ray's: its
-    /// value as if there were no other strategy, and the weight that it got.
+    /// value as if there were no other strategy, and the weight that it got; and who sent the light.
     fn contribution(
         &mut self,
         strategy: (u32, u32),
         at: Option<Vec2>,
         unweighted: SampledSpectrum,
         weight: Real,
+        sender: Sender,
     );
 }
 
@@ -125,5 +135,5 @@ impl Record for () {
     const LOOKS: bool = false;
 
     #[inline(always)]
-    fn contribution(&mut self, _: (u32, u32), _: Option<Vec2>, _: SampledSpectrum, _: Real) {}
+    fn contribution(&mut self, _: (u32, u32), _: Option<Vec2>, _: SampledSpectrum, _: Real, _: Sender) {}
 }

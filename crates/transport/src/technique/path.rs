@@ -11,12 +11,12 @@ use super::flight::{Blocks, Flight};
 use super::media::{Passage, World, WorldMemory};
 use super::surface::emitter_hit;
 use super::vertex::Vertex;
-use super::visibility::way_to_light;
+use super::visibility::{Point, way_to_light};
 use super::{DIRECT, End, Events, PathSample, Record};
 use crate::sampler::{Block, PrimarySample};
 use indigo_camera::CameraRay;
 use indigo_geom::SurfacePoint;
-use indigo_light::Receiver;
+use indigo_light::{Receiver, Sender};
 use indigo_math::{Real, Vec3};
 use indigo_scatter::Mode;
 use indigo_scene::Scene;
@@ -179,7 +179,7 @@ fn trace(
     let scene = world.scene;
     let mut path = Path::new(camera.ratio);
     let ray = world.ray(camera.origin, camera.direction);
-    let mut flight = Flight::new(ray.o, ray, scene.camera_media_along(&ray));
+    let mut flight = Flight::new(&Point::free(ray.o), ray, scene.camera_media_along(&ray));
     let mut alpha = 0.0;
     let mut direct = None;
     let mut depth = 0;
@@ -187,16 +187,17 @@ fn trace(
     loop {
         let arrival = flight.fly_to_vertex(world, sample, Blocks::Camera, &mut number, |passage, at, wo| {
             if events.holds(depth)
-                && let Some((value, weight)) = add_emission(world, &mut path, passage, at, wo)
+                && let Some((value, weight, sender)) = add_emission(world, &mut path, passage, at, wo)
             {
-                record.contribution((0, depth + 2), None, value * camera.importance, weight);
+                record.contribution((0, depth + 2), None, value * camera.importance, weight, sender);
             }
         });
         let Some((vertex, u)) = arrival else {
             if events.holds(depth)
                 && let Some((value, weight)) = add_environment(world, &mut path, &flight)
             {
-                record.contribution((0, depth + 2), None, value * camera.importance, weight);
+                let sender = Sender::Environment(flight.ray.d);
+                record.contribution((0, depth + 2), None, value * camera.importance, weight, sender);
             }
             break;
         };
@@ -213,9 +214,9 @@ fn trace(
         let lights = sample.block(Block::light(number));
         if events.holds(depth + 1)
             && vertex.is_connectable()
-            && let Some((value, weight)) = add_direct_light(world, &mut path, &vertex, lights)
+            && let Some((value, weight, sender)) = add_direct_light(world, &mut path, &vertex, lights)
         {
-            record.contribution((1, depth + 2), None, value * camera.importance, weight);
+            record.contribution((1, depth + 2), None, value * camera.importance, weight, sender);
         }
         if depth >= ROULETTE_FROM && !path.survives_roulette(lights[3]) {
             break;
@@ -252,11 +253,12 @@ fn add_emission(
     passage: &Passage,
     at: &SurfacePoint,
     wo: Vec3,
-) -> Option<Contribution> {
+) -> Option<(SampledSpectrum, Real, Sender)> {
     let lights = &world.scene.lights;
     let hit = emitter_hit(at);
     let light = lights.emitted(&hit, wo, world.lambda)?;
-    Some(path.add_found(passage, light, |last| lights.pdf_object(&hit, &last.at)))
+    let (value, weight) = path.add_found(passage, light, |last| lights.pdf_object(&hit, &last.at));
+    Some((value, weight, lights.sender_of_object(hit.object)?))
 }
 
 #[inline]
@@ -267,7 +269,12 @@ fn add_environment(world: &World, path: &mut Path, flight: &Flight) -> Option<Co
 }
 
 #[inline]
-fn add_direct_light(world: &World, path: &mut Path, vertex: &Vertex, u: [Real; 4]) -> Option<Contribution> {
+fn add_direct_light(
+    world: &World,
+    path: &mut Path,
+    vertex: &Vertex,
+    u: [Real; 4],
+) -> Option<(SampledSpectrum, Real, Sender)> {
     let light = world.scene.lights.sample(&vertex.receiver(), u, world.lambda)?;
     let response = vertex.eval(light.wi, Mode::Radiance);
     let value = response.f_cos * light.radiance;
@@ -275,5 +282,6 @@ fn add_direct_light(world: &World, path: &mut Path, vertex: &Vertex, u: [Real; 4
         return None;
     }
     let passage = way_to_light(world, vertex, &light)?;
-    Some(path.add_drawn(value, &passage, light.pdf, response.pdf))
+    let (value, weight) = path.add_drawn(value, &passage, light.pdf, response.pdf);
+    Some((value, weight, light.sender))
 }

@@ -163,6 +163,6 @@ impl Vertex {
     #[inline]
     pub fn leave(&self, world: &World, direction: Vec3) -> Flight {
         let media = *self.media_towards(direction);
-        Flight::new(self.point.p, self.point.spawn_into(world, direction, &media), media)
+        Flight::new(&self.point, self.point.spawn_into(world, direction, &media), media)
     }
 }

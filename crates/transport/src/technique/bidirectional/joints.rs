@@ -10,7 +10,7 @@ use crate::technique::mis::{Prefix, Step, Weight};
 use crate::technique::surface::emitter_hit;
 use crate::technique::visibility::{way, way_to_light};
 use indigo_geom::SurfacePoint;
-use indigo_light::Receiver;
+use indigo_light::{Receiver, Sender};
 use indigo_math::{Real, Vec3};
 use indigo_scatter::Mode;
 use indigo_spectrum::{LanePdf, SampledSpectrum};
@@ -58,7 +58,7 @@ pub(super) fn draw_light(
         others_camera,
         light.pdf_emission.first / drawn,
     );
-    record.contribution((1, end.depth + 2), None, value / weight.mean_ratio, weight.weight);
+    record.contribution((1, end.depth + 2), None, value / weight.mean_ratio, weight.weight, light.sender);
     value * weight.factor()
 }
 
@@ -127,7 +127,8 @@ fn join_pair(
     let others_light = prefix.others(here.pdf * light.vertex.reach(wi) * free, there.pdf_rev);
     let others_camera = end.prefix.others(there.pdf * end.vertex.reach(wi) * free, here.pdf_rev);
     let weight = Weight::joint(prefix.ratio, others_light, end.prefix.ratio, others_camera);
-    record.contribution((i as u32 + 2, end.depth + 2), None, value / weight.mean_ratio, weight.weight);
+    let strategy = (i as u32 + 2, end.depth + 2);
+    record.contribution(strategy, None, value / weight.mean_ratio, weight.weight, light_path.sender);
     value * weight.factor()
 }
 
@@ -157,7 +158,7 @@ pub(super) fn meet_lamp(
     let cos = wo.dot(at.n_g).abs();
     let hit = emitter_hit(at);
     let light = lights.emitted(&hit, wo, world.lambda).filter(|_| cos > 0.0);
-    let Some(light) = light else { return SampledSpectrum::ZERO };
+    let Some(light) = light.zip(lights.sender_of_object(hit.object)) else { return SampledSpectrum::ZERO };
     let distance2 = (at.p - path.from.p).length2();
     let prefix = path.step.arrive(distance2, LanePdf::splat(cos), path.passage.free);
     let pdf = lights.pdf_emission_object(&hit, wo);
@@ -181,6 +182,7 @@ pub(super) fn meet_environment(
     let world = &sample.world;
     let lights = &world.scene.lights;
     let Some(light) = lights.environment(towards, world.lambda) else { return SampledSpectrum::ZERO };
+    let light = (light, Sender::Environment(towards));
     let prefix = path.step.arrive_at_environment(path.passage.free);
     let pdf = lights.pdf_emission_environment(towards, path.from.p);
     let drawn = if path.depth == 0 {
@@ -196,7 +198,7 @@ pub(super) fn meet_environment(
 fn found(
     path: &Arrived,
     prefix: &Prefix,
-    light: SampledSpectrum,
+    (light, sender): (SampledSpectrum, Sender),
     [drawn, first, second]: [Real; 3],
     record: &mut impl Record,
 ) -> SampledSpectrum {
@@ -207,6 +209,6 @@ fn found(
         prefix.others_at_light(drawn, first, second)
     };
     let weight = Weight::new(prefix.ratio, others);
-    record.contribution((0, path.depth + 2), None, value / weight.mean_ratio, weight.weight);
+    record.contribution((0, path.depth + 2), None, value / weight.mean_ratio, weight.weight, sender);
     value * weight.factor()
 }

@@ -9,7 +9,7 @@ use crate::technique::mis::{Prefix, Step, Weight};
 use crate::technique::vertex::Vertex;
 use crate::technique::visibility::{Point, way};
 use crate::technique::{End, Part, Record, Splat};
-use indigo_light::Emission;
+use indigo_light::{Emission, Sender};
 use indigo_math::{Real, Vec3};
 use indigo_scatter::{MediumStack, Mode};
 use indigo_spectrum::{LanePdf, SampledSpectrum};
@@ -24,6 +24,8 @@ pub(super) struct LightPath {
     drawn: [Real; 2],
     /// Density of film positions, over that of the film as a whole.
     pub film_density: Real,
+    /// Who sent the light, if there are vertices.
+    pub sender: Sender,
 }
 
 /// A vertex of the light's path from its second one on.
@@ -38,7 +40,8 @@ pub(super) struct LightVertex {
 impl LightPath {
     /// Without vertices, for a film of which the part `rendered` gets camera paths.
     pub fn new(rendered: Real) -> Self {
-        Self { vertices: vec![], splats: vec![], drawn: [0.0; 2], film_density: 1.0 / rendered }
+        let (film_density, sender) = (1.0 / rendered, Sender::Lamp(0));
+        Self { vertices: vec![], splats: vec![], drawn: [0.0; 2], film_density, sender }
     }
 
     /// What is known of a vertex where the path goes on from it in a direction. That light is drawn for the first
@@ -67,6 +70,7 @@ impl LightPath {
         let u = numbers.block(Block::EMISSION);
         let [_, _, v0, v1] = numbers.block(Block::LENS);
         let Some(source) = scene.lights.sample_source(u) else { return };
+        self.sender = source.sender();
         self.splats.extend(join_source(sample, &source, self.film_density, record));
         if sample.events.most == 0 {
             return;
@@ -161,11 +165,12 @@ impl LightPath {
         let weight = Weight::joint(prefix.ratio, others, camera.ratio, LanePdf::ZERO);
         let arrived = light.beta.times(camera.ratio) * passage.transmittance;
         let value = arrived * scattered.f_cos * (film.importance * pdf / distance2);
-        record.contribution((events + 1, 1), Some(position), value / weight.mean_ratio, weight.weight);
+        let strategy = (events + 1, 1);
+        record.contribution(strategy, Some(position), value / weight.mean_ratio, weight.weight, self.sender);
         self.splats.push(Splat {
             position,
             radiance: value * weight.factor(),
-            part: Part::scattered(events),
+            part: Part::of(strategy, self.sender),
         });
     }
 }
@@ -175,11 +180,11 @@ fn leave_lamp(world: &World, emission: &Emission) -> Flight {
     let (Some(point), Some(lamp)) = (&emission.point, emission.lamp()) else {
         let origin =
             if world.scene.lights.portals().is_some() { entry(world, emission) } else { emission.origin };
-        return Flight::new(origin, world.ray(origin, emission.direction), MediumStack::AIR);
+        return Flight::new(&Point::free(origin), world.ray(origin, emission.direction), MediumStack::AIR);
     };
     let (start, direction) = (Point::of_light(point), emission.direction);
     let media = world.scene.media_at_lamp(lamp, start.spawn(world, direction).o, direction, world.time);
-    Flight::new(point.p, start.spawn_into(world, direction, &media), media)
+    Flight::new(&start, start.spawn_into(world, direction, &media), media)
 }
 
 /// A point before all that stands in the way of light from the environment, the light's own origin where that is one.

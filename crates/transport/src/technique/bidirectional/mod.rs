@@ -19,6 +19,7 @@ use super::flight::{Blocks, Flight};
 use super::media::{World, WorldMemory};
 use super::mis::{Prefix, Step};
 use super::vertex::Vertex;
+use super::visibility::Point;
 use super::{DIRECT, End, Events, PathSample, Record, Splat};
 use crate::sampler::{Block, PrimarySample};
 use indigo_camera::{CameraRay, FilmPosition};
@@ -129,7 +130,7 @@ fn trace_camera(
     let mut step = Step::from_camera(pdf, camera.ratio, scene.camera.is_parallel());
     let mut from = Receiver::all_round(camera.origin);
     let ray = world.ray(camera.origin, camera.direction);
-    let mut flight = Flight::new(ray.o, ray, scene.camera_media_along(&ray));
+    let mut flight = Flight::new(&Point::free(ray.o), ray, scene.camera_media_along(&ray));
     let (mut alpha, mut depth, mut number) = (0.0, 0, 0);
     // By what roulette divides the throughput, so that it sees losses alone.
     let mut expected = camera.importance;

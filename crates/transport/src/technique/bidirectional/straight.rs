@@ -94,7 +94,8 @@ pub(super) fn join_source<R: Record>(
     let weight = Weight::straight(camera.ratio, passage.free * (pdf * film_density), counted);
     let arrived = light.times(camera.ratio) * passage.transmittance;
     let value = arrived * (film.importance * pdf / view.pdf);
-    record.contribution((1, 1), Some(film.position), value / weight.mean_ratio, weight.weight);
-    let part = if view.point.is_some() { Part::Direct } else { Part::Background };
+    let (strategy, sender) = ((1, 1), source.sender());
+    record.contribution(strategy, Some(film.position), value / weight.mean_ratio, weight.weight, sender);
+    let part = Part::of(strategy, sender);
     Some(Splat { position: film.position, radiance: value * weight.factor(), part })
 }
