@@ -85,8 +85,7 @@ pub fn is_there(path: &Path) -> String {
 
 /// Changed elements that would be lost.
 pub fn unsaved(n: usize) -> String {
-    let changes = indigo_front::messages::count(n, "change");
-    format!("You have made {changes} to the scene's elements. What should happen to them?")
+    format!("{} to the scene's elements would be lost.", indigo_front::messages::count(n, "change"))
 }
 
 /// The ending of a file.

@@ -222,6 +222,36 @@ fn both_themes_at_two_sizes() {
     }
 }
 
+/// An element is changed, and the window closed: what was changed is asked about, and saved by the first answer.
+#[test]
+fn a_changed_element_is_not_lost_by_closing() {
+    let folder = scratch("unsaved");
+    let scene = even_light(&folder);
+    let mut screen = Screen::start(&folder, LARGE, &[&scene, "-o", "even.png"]);
+    screen.wait_for("the end", |_| folder.join("even.png").exists().then_some(()));
+    wait_for_picture(&mut screen);
+    screen.press(&[keys::CONTROL, u32::from(b'3')]);
+    let side = LARGE[0] as i16 - 324;
+    // The page of elements, the first of them, and the field of its first child.
+    for at in [[side + 120, 100], [side + 30, 164], [side + 250, 192]] {
+        std::thread::sleep(Duration::from_millis(800));
+        screen.click(at);
+    }
+    screen.press(&[keys::END]);
+    screen.press(&[u32::from(b'9')]);
+    std::thread::sleep(Duration::from_millis(500));
+    screen.see().keep("changed");
+    ask_to_close(&mut screen);
+    std::thread::sleep(Duration::from_millis(500));
+    screen.see().keep("unsaved");
+    screen.press(&[keys::TAB]);
+    screen.press(&[keys::SPACE]);
+    assert!(screen.wait_for_end());
+    let text = std::fs::read_to_string(&scene).expect("the scene");
+    assert!(text.contains("<width>3009</width>"), "{text}");
+    std::fs::remove_dir_all(&folder).expect("the story's own files");
+}
+
 #[test]
 fn the_log_keeps_the_height_that_it_was_given() {
     let folder = scratch("height");

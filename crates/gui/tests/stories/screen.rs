@@ -23,6 +23,7 @@ pub mod keys {
     pub const CONTROL: u32 = 0xffe3;
     pub const ESCAPE: u32 = 0xff1b;
     pub const RETURN: u32 = 0xff0d;
+    pub const END: u32 = 0xff57;
     pub const TAB: u32 = 0xff09;
     pub const F2: u32 = 0xffbf;
     pub const BRACKET_RIGHT: u32 = 0x5d;
@@ -175,6 +176,13 @@ impl Screen {
     pub fn point(&self, at: [i16; 2]) {
         self.fake(MOTION_NOTIFY_EVENT, 0, at);
         std::thread::sleep(Duration::from_millis(150));
+    }
+
+    /// Clicks somewhere.
+    pub fn click(&self, at: [i16; 2]) {
+        self.point(at);
+        self.fake(BUTTON_PRESS_EVENT, 1, [0, 0]);
+        self.fake(BUTTON_RELEASE_EVENT, 1, [0, 0]);
     }
 
     /// Moves the pointer from one place to another with its first button held.
