@@ -12,7 +12,9 @@ use indigo_front::{logical_cores, paths, program};
 use indigo_render::output::{OutputPaths, SaveJob, write_film};
 use indigo_render::pool::with_jobs;
 use indigo_render::saved::{FilmFileError, develop_film, merge_films};
-use indigo_scene::{DIFFRACTION_OF_RAYS, FOREGROUND_ALPHA, LoadedDevelopment, load_development};
+use indigo_scene::{
+    DIFFRACTION_OF_RAYS, FOREGROUND_ALPHA, LAYER_SETTING, LoadedDevelopment, load_development,
+};
 use std::path::{Path, PathBuf};
 
 /// Adds films; the exit status.
@@ -103,6 +105,12 @@ pub fn tone_map(arguments: &Arguments, console: &mut Console) -> u8 {
              with this setting as it was rendered"
         ));
         return BAD_INPUT;
+    }
+    if developed.record.is_some() && said(LAYER_SETTING) != development.light_layers.as_deref() {
+        console.warn(&format!(
+            "the film {film} was rendered with other layers of lights, or layers of other colours, than the scene has: their \
+             colours are those of the film, and of layers that it does not know by name nothing is turned up or down"
+        ));
     }
     if development.picture.diffraction.is_some() && is_true(DIFFRACTION_OF_RAYS) {
         console.warn(

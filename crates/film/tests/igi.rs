@@ -44,7 +44,9 @@ fn bytes(saved: &SavedFilm) -> Vec<u8> {
 }
 
 fn develop(file: &[u8]) -> Result<DevelopedFilm, IgiError> {
-    IgiFile::load(file, file.len() as u64).expect("bytes in memory").develop(&Default::default())
+    IgiFile::load(file, file.len() as u64)
+        .expect("bytes in memory")
+        .develop(&indigo_film::LightMix::default())
 }
 
 #[test]

@@ -94,7 +94,7 @@ fn the_same_order_gives_the_same_bits() {
     }
     let state = merged(&deltas.iter().collect::<Vec<_>>());
     assert_eq!(master.snapshot(), state);
-    assert_eq!(master.develop(&Default::default()), state.develop());
+    assert_eq!(master.develop(&indigo_film::LightMix::default()), state.develop());
 
     let resumed = MasterFilm::new(size(), &LAYERS).unwrap();
     resumed.merge_state(&state).unwrap();

@@ -29,6 +29,8 @@ pub struct AreaLight {
     area_m2: f64,
     /// The group of lights that it belongs to.
     group: u16,
+    /// How much more often it is drawn than by its light alone.
+    attention: f64,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -75,6 +77,7 @@ impl AreaLight {
             photometry: None,
             area_m2: areas.iter().sum(),
             group: 0,
+            attention: 1.0,
             areas,
         };
         light.choose_by(|_| 1.0);
@@ -121,6 +124,19 @@ impl AreaLight {
     pub fn in_group(mut self, group: u16) -> Self {
         self.group = group;
         self
+    }
+
+    /// The lamp that is drawn so many times as often as others of the same flux: it may be brighter or darker in the
+    /// picture. That changes noise, and no mean.
+    #[must_use]
+    pub fn with_attention(mut self, attention: f64) -> Self {
+        self.attention = attention;
+        self
+    }
+
+    /// The flux by which it is drawn.
+    pub(crate) fn weight(&self) -> f64 {
+        self.flux() * self.attention
     }
 
     /// The group of lights that it belongs to.

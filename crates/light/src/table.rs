@@ -76,7 +76,7 @@ impl LightTable {
         portals: Option<Portals>,
     ) -> Self {
         let environment = (!distant.is_empty()).then(|| Environment::new(distant, sphere, portals));
-        let powers: Vec<f64> = lamps.iter().map(AreaLight::flux).collect();
+        let powers: Vec<f64> = lamps.iter().map(AreaLight::weight).collect();
         // Lamps that are all black leave everything to the environment.
         let beside_lamps = if powers.iter().any(|&p| p > 0.0) { 0.5 } else { 1.0 };
         let lit = environment.as_ref().filter(|e| e.shines());

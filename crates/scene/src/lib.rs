@@ -22,7 +22,7 @@ pub use indigo_geom::Stop;
 pub use load::{LoadOptions, Loaded, LoadedDevelopment, Override, load, load_development};
 pub use needs::{LoadedNeeds, Need, load_needs};
 pub use scene::{
-    DIFFRACTION_OF_RAYS, Development, FOREGROUND_ALPHA, FilmSettings, Identity, MetropolisSettings, Names,
-    OutputSettings, Scene, SceneStats, TransportSettings,
+    DIFFRACTION_OF_RAYS, Development, FOREGROUND_ALPHA, FilmSettings, Identity, LAYER_SETTING,
+    MetropolisSettings, Names, OutputSettings, Scene, SceneStats, TransportSettings,
 };
 pub use settings::{Listed, Origin, Settings};

@@ -72,6 +72,9 @@ pub const DIFFRACTION_OF_RAYS: &str = "diffraction of rays";
 /// The name of the setting of an [`Identity`] that is `true` where the film holds what hides the background and no light.
 pub const FOREGROUND_ALPHA: &str = "render_foreground_alpha";
 
+/// The name of the setting of an [`Identity`] that tells names and colours of the layers of lights.
+pub const LAYER_SETTING: &str = "layer_setting";
+
 /// The name of the setting of an [`Identity`] that tells the part of the picture that is rendered.
 pub(crate) const RENDER_REGION: &str = "render_region";
 
@@ -98,6 +101,8 @@ pub struct Development {
     pub size: FilmSize,
     /// How the picture is made from the film.
     pub picture: PictureSettings,
+    /// What a film depends on of the layers of lights, as its record tells; `None` without any.
+    pub light_layers: Option<String>,
     /// What pictures tell of the camera.
     pub camera: CameraFacts,
     /// What is written.
@@ -229,6 +234,7 @@ impl Scene {
             transport: self.transport,
             size: self.film.size,
             picture: self.picture.clone(),
+            light_layers: self.identity.settings.iter().find(|s| s.0 == LAYER_SETTING).map(|s| s.1.clone()),
             camera: self.camera_facts,
             output: self.output.clone(),
         }

@@ -28,7 +28,7 @@ pub(super) fn build(lamps: &[AreaLight]) -> LightTree {
     for (lamp, light) in lamps.iter().enumerate() {
         tree.offsets.push(tree.slot_of.len() as u32);
         tree.slot_of.resize(tree.slot_of.len() + light.len(), NONE);
-        let flux = light.flux();
+        let flux = light.weight();
         items.extend((0..light.len()).filter_map(|i| item(light, flux, [lamp, i])));
     }
     let Some(all) = union(&items) else { return tree };

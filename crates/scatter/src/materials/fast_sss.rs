@@ -41,6 +41,20 @@ pub static BLOCK: Block = Block::new(
 </fast_sss>",
 );
 
+/// Fields that say nothing of the surface of a medium.
+const IDLE: [&str; 10] = [
+    "albedo_texture",
+    "diffuse_albedo_spectrum",
+    "diffuse",
+    "ior",
+    "exponent",
+    "exponent_map",
+    "roughness_map",
+    "fresnel_scale",
+    "nk_data",
+    "specular_reflectivity_spectrum",
+];
+
 /// Builds the material of an element.
 pub fn build(node: &Node, resources: &mut dyn MaterialResources) -> Material {
     if node.opt_text(INTERNAL_MEDIUM_NAME.name).is_none() {
@@ -49,18 +63,6 @@ pub fn build(node: &Node, resources: &mut dyn MaterialResources) -> Material {
     let medium = resources.medium(node, INTERNAL_MEDIUM_NAME.name);
     let width = node.opt_real(ROUGHNESS.name).map_or(0.3, |width| width.value);
     // Its colours are those of the medium.
-    const IDLE: [&str; 10] = [
-        "albedo_texture",
-        "diffuse_albedo_spectrum",
-        "diffuse",
-        "ior",
-        "exponent",
-        "exponent_map",
-        "roughness_map",
-        "fresnel_scale",
-        "nk_data",
-        "specular_reflectivity_spectrum",
-    ];
     for idle in IDLE.into_iter().filter(|name| node.has(name)) {
         let message = format!(
             "<{idle}> has no effect beside <internal_medium_name>: the surface is that of the medium"

@@ -217,6 +217,13 @@ macro_rules! registry {
             /// What a blend or sheet is at a point by the context's choice: a material that is neither.
             #[inline]
             pub fn chosen<'a>(&'a self, context: &MaterialContext<'a>, uv: &impl Fn(u32) -> Vec2) -> &'a Self {
+                match self {
+                    Self::Blend(_) | Self::Sheet(_) => self.chosen_part(context, uv),
+                    other => other,
+                }
+            }
+
+            fn chosen_part<'a>(&'a self, context: &MaterialContext<'a>, uv: &impl Fn(u32) -> Vec2) -> &'a Self {
                 let (mut material, mut choice) = (self, blend::Choice::new(context.choice));
                 loop {
                     material = match material {

@@ -151,9 +151,9 @@ pub(super) fn emitting_part(
         lamp = with_texture(lamp, texture, shape);
     }
     let is_of_part = |n: &&Node| materials.is_same(&n.text("material_name").value, &part.material);
-    let scale = part.model.nodes("emission_scale").filter(is_of_part).last();
+    let scale = last_of(part.model.nodes("emission_scale").filter(is_of_part), context.sink);
     let flux = scale.map(|scale| flux_lm(scale, lamp.area()));
-    let profile = part.model.nodes("ies_profile").filter(is_of_part).last();
+    let profile = last_of(part.model.nodes("ies_profile").filter(is_of_part), context.sink);
     let lamp = match (profile, scale.zip(flux)) {
         (Some(profile), _) => {
             with_profile(part.model.span, (profile, flux), lamp, shape, errors_before, context)
@@ -162,6 +162,21 @@ pub(super) fn emitting_part(
         (None, None) => lamp,
     };
     in_layer(lamp, &emission.layer)
+}
+
+/// The last of some elements for one thing, which counts; those before it are told.
+fn last_of<'a>(nodes: impl Iterator<Item = &'a Node>, sink: &mut Sink) -> Option<&'a Node> {
+    nodes.fold(None, |before: Option<&Node>, node| {
+        if let Some(before) = before {
+            before.disregard();
+            let message = format!(
+                "<{}> is given more than once for one material; the last one counts",
+                node.block.name
+            );
+            sink.push(Diagnostic::warning(indigo_decl::codes::DUPLICATE_ELEMENT, before.span, message));
+        }
+        Some(node)
+    })
 }
 
 /// A lamp as its layer has it.

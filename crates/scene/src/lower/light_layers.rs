@@ -49,6 +49,7 @@ impl Layers {
                 let name = name(node, number, &layers);
                 (LightGroup { name, gain, is_on, layer: Some(number as u16) }, colour)
             } else {
+                node.disregard_field("name");
                 let gain = if is_on { gain } else { 0.0 };
                 (rest(), Some(colour.unwrap_or(Spectrum::uniform(1.0)).scaled(gain)))
             });
@@ -123,7 +124,7 @@ fn name(node: &Node, number: usize, others: &[(LightGroup, Option<Spectrum>)]) -
     let given = node.text("name").value;
     let mut name = if given.is_empty() { format!("layer {number}") } else { given };
     while name == REST || others.iter().any(|(other, _)| other.name == name) {
-        name += &format!(" ({number})");
+        name = format!("{name} ({number})");
     }
     name
 }
@@ -142,5 +143,5 @@ fn scale(node: &Node, sink: &mut Sink) -> (f64, Option<Spectrum>) {
 
 /// Whether a factor leaves light as it is.
 fn is_white(colour: &Spectrum) -> bool {
-    matches!(colour, Spectrum::Uniform(value) if (f64::from(*value) - 1.0).abs() < 1e-6)
+    matches!(colour, Spectrum::Uniform(value) if (*value - 1.0).abs() < 1e-6)
 }

@@ -9,7 +9,7 @@ use super::{Context, environment, placement};
 use crate::codes;
 use indigo_decl::Node;
 use indigo_diag::{Diagnostic, Sink};
-use indigo_film::LightMix;
+use indigo_film::{LightGroup, LightMix};
 use indigo_geom::{Accel, MeshBuffers, Object, TriangleMesh};
 use indigo_light::{AreaLight, DistantLight, LightTable, Portals};
 use indigo_math::{Transform, Vec3d};
@@ -148,13 +148,23 @@ impl Lights {
         let number = |group: u16| numbers[usize::from(group)];
         let in_order = |lamp: AreaLight| {
             let group = number(lamp.group());
-            lamp.in_group(group)
+            lamp.in_group(group).with_attention(attention(&mix, group))
         };
         let lamps = self.lamps.into_iter().map(in_order).collect();
         let (distant, groups): (Vec<_>, Vec<_>) = self.distant.into_iter().unzip();
         let table = LightTable::with_portals(lamps, distant, geometry.lights(), sphere, portals);
         (table.with_distant_groups(groups.into_iter().map(number).collect()), mix)
     }
+}
+
+/// How often lamps of a group are drawn, over how often they would be by their light as it is rendered: by their light in the
+/// picture, as the scene has it, but for a hundredth at least, since they may be turned up later.
+fn attention(mix: &LightMix, group: u16) -> f64 {
+    const LEAST: f64 = 0.01;
+    let gain = |group: &LightGroup| if group.is_on { group.gain } else { 0.0 };
+    let most = mix.0.iter().map(gain).fold(0.0, f64::max);
+    let Some(own) = mix.0.get(usize::from(group)).filter(|_| most > 0.0) else { return 1.0 };
+    (gain(own) / most).max(LEAST)
 }
 
 /// A horizontal rectangle round the origin whose front looks down.

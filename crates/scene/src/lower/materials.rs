@@ -301,10 +301,17 @@ fn report_stand_in(kind: &Node, other: &Spanned<String>, sink: &mut Sink) {
     sink.push_or_count(Diagnostic::warning(
         codes::STANDS_IN,
         kind.span,
-        format!(
-            "<{}> is of a later format version and not rendered: {} stands in",
-            kind.block.name, other.value
-        ),
+        if kind.block.name == "coating" {
+            format!(
+                "a <coating> is rendered over <diffuse> alone: {} stands in without its coat",
+                other.value
+            )
+        } else {
+            format!(
+                "<{}> is of a later format version and not rendered: {} stands in",
+                kind.block.name, other.value
+            )
+        },
     ));
 }
 

@@ -188,9 +188,10 @@ pub(crate) fn development(
     let layers = Layers::new(settings, context.sink);
     let picture = picture::picture(root, node.zip(camera.as_ref()), settings, &mut context)?;
     let picture = PictureSettings { lights: layers.all(), ..picture };
+    let light_layers = layers.decisive();
     let position = node.map_or(Vec3d::ZERO, |c| camera::position(c, context.sink));
     let camera = camera?.facts(position, &picture);
-    Some(Development { transport, size: film?.size, picture, camera, output })
+    Some(Development { transport, size: film?.size, picture, light_layers, camera, output })
 }
 
 fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) -> Option<Scene> {

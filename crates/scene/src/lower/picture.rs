@@ -5,8 +5,8 @@ use super::camera::Unfocused;
 use super::light_layers::Layers;
 use crate::codes;
 use crate::scene::{
-    DIFFRACTION_OF_RAYS, FOREGROUND_ALPHA, FilmSettings, OutputSettings, RENDER_REGION, TransportSettings,
-    region_in_words,
+    DIFFRACTION_OF_RAYS, FOREGROUND_ALPHA, FilmSettings, LAYER_SETTING, OutputSettings, RENDER_REGION,
+    TransportSettings, region_in_words,
 };
 use crate::settings::Settings;
 use indigo_decl::Node;
@@ -87,7 +87,7 @@ pub(super) fn decisive(
         ("vignetting", settings.bool("vignetting").to_string()),
         (DIFFRACTION_OF_RAYS, by_rays.to_string()),
     ];
-    values.extend(layers.decisive().map(|value| ("layer_setting", value)));
+    values.extend(layers.decisive().map(|value| (LAYER_SETTING, value)));
     if !is_mask {
         // A mask is rendered in one way, whatever these say.
         values.extend([

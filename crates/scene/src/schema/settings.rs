@@ -89,7 +89,7 @@ pub static RENDERER_SETTINGS: Block = Block::new(
              other picture; the light that the surroundings send \
              straight into the camera (`background.R`, `background.G`, `background.B`), which with the foreground's makes up \
              the picture; its light that was scattered once at most (`direct.R`, `direct.G`, `direct.B`) and more often (`indirect.R`, \
-             `indirect.G`, `indirect.B`), which make up the picture, too; and of what the camera first meets the reflectance (`albedo.R`, `albedo.G`, `albedo.B`), the normal in the world \
+             `indirect.G`, `indirect.B`), which make up the picture, too; the light of each `layer_setting` whose lights the scene has, as bright as it is in the picture (`light1.R` and so on, in their order; the attribute `indigo.light_names` tells their names); and of what the camera first meets the reflectance (`albedo.R`, `albedo.G`, `albedo.B`), the normal in the world \
              (`normal.X`, `normal.Y`, `normal.Z`), the depth in metres (`depth.Z`, 1e10 where there is nothing), and \
              the numbers of object and material that most of the pixel shows (`object_id.X`, `material_id.X`, 0 where there is nothing). \
              The attributes `indigo.object_names` and `indigo.material_names` tell their names, as JSON: objects are numbered \

@@ -137,27 +137,28 @@ impl Flight {
                 ray.t_max = ray.t_max.min(scattered);
             }
         }
-        let met = world.intersect(&ray).map(|hit| (hit.t, world.scene.accel.surface(&ray, &hit)));
-        if world.has_media() {
-            let t = met.as_ref().map_or(scattered, |(t, _)| *t);
-            let way = match (&met, self.from) {
-                // Where nothing is scattered the way is that of the ray that leaves the vertex itself.
-                (Some((_, at)), Some(from)) if scattered == Real::INFINITY => {
-                    plane_distance(from, ray.d, at).unwrap_or(t - self.passed)
-                }
-                _ => t - self.passed,
-            };
-            self.passage = self.passage.then(world.passage(&self.media, way));
-            self.passed = t;
-        }
-        match met {
-            Some((t, at)) => {
-                self.passed = t;
-                Arrival::Surface(at)
+        let Some(hit) = world.intersect(&ray) else {
+            if world.has_media() {
+                self.pass_media(world, scattered - self.passed);
+                self.passed = scattered;
             }
-            None if scattered < Real::INFINITY => Arrival::Medium(ray.at(scattered)),
-            None => Arrival::Environment,
+            let is_scattered = scattered < Real::INFINITY;
+            return if is_scattered { Arrival::Medium(ray.at(scattered)) } else { Arrival::Environment };
+        };
+        let at = world.scene.accel.surface(&ray, &hit);
+        if world.has_media() {
+            // Where nothing is scattered the way is that of the ray that leaves the vertex itself.
+            let from = self.from.filter(|_| scattered == Real::INFINITY);
+            let way = from.and_then(|from| plane_distance(from, ray.d, &at));
+            self.pass_media(world, way.unwrap_or(hit.t - self.passed));
         }
+        self.passed = hit.t;
+        Arrival::Surface(at)
+    }
+
+    #[inline]
+    fn pass_media(&mut self, world: &World, way: Real) {
+        self.passage = self.passage.then(world.passage(&self.media, way));
     }
 
     /// Goes on beyond the surface that it came to, with other media round it.

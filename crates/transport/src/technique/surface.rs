@@ -5,7 +5,7 @@ use super::vertex::Vertex;
 use indigo_geom::SurfacePoint;
 use indigo_light::EmitterHit;
 use indigo_math::{Real, Vec3};
-use indigo_scatter::{Material, MaterialContext, MediumStack, ShadingPoint, bumped_normal};
+use indigo_scatter::{Material, MediumStack, ShadingPoint, bumped_normal};
 use indigo_scene::Scene;
 
 /// What a surface is to a path.
@@ -41,8 +41,8 @@ pub(super) fn shade(
     if medium.is_some() && above.current() == below.current() {
         return Surface::Unseen(below);
     }
-    let context = scene.material_context(world.lambda, world.interface(&above, &below), choice);
-    let context = MaterialContext { is_front: wo.dot(at.n_g) > 0.0, ..context };
+    let mut context = scene.material_context(world.lambda, world.interface(&above, &below), choice);
+    context.is_front = wo.dot(at.n_g) > 0.0;
     let uv = |set| scene.accel.uv(at, set);
     let material = material.chosen(&context, &uv);
     match material.leaf(&context, uv) {
