@@ -35,6 +35,7 @@ pub fn lights(ui: &mut Ui, controls: &mut Controls) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use eframe::egui::Role;
     use egui_kittest::Harness;
     use egui_kittest::kittest::Queryable;
     use indigo_film::{LightGroup, LightMix};
@@ -50,14 +51,14 @@ mod tests {
         };
         let mut harness = Harness::builder().build_ui_state(lights, Controls::of(&settings));
         harness.run();
-        harness.get_by_label("lamps").click();
+        harness.get_by_role_and_label(Role::CheckBox, "lamps").click();
         harness.run();
         let is_on = |harness: &Harness<Controls>| {
             harness.state().lights.0.iter().map(|g| g.is_on).collect::<Vec<_>>()
         };
         assert_eq!(is_on(&harness), [false, true]);
         assert_eq!(harness.state().apply(&settings).lights.gain("camera [lamps]"), 0.0);
-        harness.get_by_label("lamps").click();
+        harness.get_by_role_and_label(Role::CheckBox, "lamps").click();
         harness.run();
         assert_eq!(is_on(&harness), [true, true]);
         assert_eq!(harness.state().lights, settings.lights);
