@@ -36,7 +36,7 @@ indigo_decl::codes! {
     /// Something of an emitting material that gives no light.
     NOT_EMITTING = "W0319", "(a `sphere` whose material has `base_emission`)";
     /// A kind of a later format version that another stands in for.
-    STANDS_IN = "W0320", "<material><name>a</name><coating><substrate_material_name>white</substrate_material_name></coating></material><sphere><center>0 0 0</center><radius>1</radius><material_name>a</material_name></sphere>";
+    STANDS_IN = "W0320", "<material><name>a</name><fast_sss></fast_sss></material><sphere><center>0 0 0</center><radius>1</radius><material_name>a</material_name></sphere>";
     /// A scale or a profile of a material that the model does not emit by.
     IDLE_SCALE = "W0321", "(an `emission_scale` of a material that the model does not have)";
     /// A map of exponents with some that are not above 0.
