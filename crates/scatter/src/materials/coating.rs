@@ -5,7 +5,7 @@
 //! shows ρ (1 − r) / (1 − ρ r) (Saunderson 1942, "Calculation of the color of pigmented plastics", equation 5): coats
 //! make colours darker and deeper, and leave white as it is.
 
-use super::fields::{BUMP, BUMP_MAP, ROUGHNESS, ROUGHNESS_PARAMETER};
+use super::fields::{BUMP, BUMP_MAP, FRESNEL_SCALE_PARAMETER, ROUGHNESS, ROUGHNESS_MAP, ROUGHNESS_PARAMETER};
 use super::phong::Phong;
 use super::{Material, MaterialResources, Surface};
 use indigo_decl::{Block, Field, Kind, Later, Node, Parameter, Presence, Range, StandIn, codes};
@@ -13,13 +13,12 @@ use indigo_diag::Diagnostic;
 use indigo_math::{Float, Real};
 use indigo_spectrum::declare::SPECTRUM;
 use indigo_spectrum::read;
-use indigo_texture::declare::TEXTURE;
 
 /// The declaration of `coating`.
 pub static BLOCK: Block = Block::new(
     "coating",
-    "A thin clear coat over another material, of version 3.0. It is rendered over a `diffuse` material; any other stands in for \
-     itself with its coat, with a warning.",
+    "A thin clear coat over another material, of version 3.0. It is rendered over a `diffuse` material; any other stands \
+     in without its coat, with a warning.",
     &[
         Field::new(
             "substrate_material_name",
@@ -31,12 +30,7 @@ pub static BLOCK: Block = Block::new(
         Field::new("ior", Kind::Real, Presence::Default("1.5"), "Index of refraction of the coat.")
             .range(Range::AtLeast(1.0)),
         ROUGHNESS,
-        Field::new(
-            "roughness_map",
-            Kind::Block(&TEXTURE),
-            Presence::Optional,
-            "An image map that takes the place of the roughness. Below 0 it counts as 0, and above 1 as 1, with a warning.",
-        ),
+        ROUGHNESS_MAP,
         Field::new(
             "fresnel_scale",
             Kind::Real,
@@ -55,13 +49,7 @@ pub static BLOCK: Block = Block::new(
 )
 .with_parameters(&[
     ROUGHNESS_PARAMETER,
-    Parameter {
-        name: "fresnel_scale",
-        since: "3.0",
-        constant: "fresnel_scale",
-        texture: "",
-        stand_in: StandIn::Text("1"),
-    },
+    FRESNEL_SCALE_PARAMETER,
     Parameter {
         name: "absorption",
         since: "3.0",

@@ -42,7 +42,7 @@ pub static BLOCK: Block = Block::new(
 );
 
 /// Fields that say nothing of the surface of a medium.
-const IDLE: [&str; 10] = [
+const IDLE: [&str; 11] = [
     "albedo_texture",
     "diffuse_albedo_spectrum",
     "diffuse",
@@ -53,6 +53,7 @@ const IDLE: [&str; 10] = [
     "fresnel_scale",
     "nk_data",
     "specular_reflectivity_spectrum",
+    "specular_reflectivity_texture",
 ];
 
 /// Builds the material of an element.

@@ -44,12 +44,29 @@ pub const ROUGHNESS: Field = Field::new(
 )
 .range(Range::Within(0.0, 1.0));
 
+/// A map in its place.
+pub const ROUGHNESS_MAP: Field = Field::new(
+    "roughness_map",
+    Kind::Block(&TEXTURE),
+    Presence::Optional,
+    "An image map that takes the place of the roughness. Below 0 it counts as 0, and above 1 as 1, with a warning.",
+);
+
+/// The factor on reflectance as later versions write it.
+pub const FRESNEL_SCALE_PARAMETER: Parameter = Parameter {
+    name: "fresnel_scale",
+    since: "3.0",
+    constant: "fresnel_scale",
+    texture: "",
+    stand_in: StandIn::Text("1"),
+};
+
 /// Roughness as later versions write it.
 pub const ROUGHNESS_PARAMETER: Parameter = Parameter {
     name: ROUGHNESS.name,
     since: "3.0",
     constant: ROUGHNESS.name,
-    texture: "roughness_map",
+    texture: ROUGHNESS_MAP.name,
     stand_in: StandIn::Text("0.3"),
 };
 

@@ -1,7 +1,7 @@
 //! `layer_setting`s: groups of lights, each of which may be brighter or darker in the picture than it was rendered.
 //!
-//! What a layer multiplies light by is taken apart: its colour, of the luminance of white, is rendered, and its
-//! brightness, 0 where the layer is switched off, is left to development ([`LightMix`]). So a film does not
+//! What a layer multiplies light by is taken apart: its colour, of the luminance of white, is rendered; its
+//! brightness, and whether it is switched on, are left to development ([`LightMix`]). So a film does not
 //! depend on how bright its layers are.
 
 use crate::codes;

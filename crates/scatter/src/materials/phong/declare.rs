@@ -2,7 +2,8 @@
 
 use crate::materials::fields::{
     ALBEDO_TEXTURE, BASE_EMISSION, BASE_EMISSION_PARAMETER, BUMP, BUMP_MAP, COLOUR_DEPRECATED, EMISSION,
-    EMISSION_PARAMETER, EMISSION_TEXTURE, LATER, LAYER, ROUGHNESS, ROUGHNESS_PARAMETER,
+    EMISSION_PARAMETER, EMISSION_TEXTURE, FRESNEL_SCALE_PARAMETER, LATER, LAYER, ROUGHNESS, ROUGHNESS_MAP,
+    ROUGHNESS_PARAMETER,
 };
 use indigo_decl::{Block, Field, Group, Kind, Parameter, Presence, Range, StandIn};
 use indigo_spectrum::declare::SPECTRUM;
@@ -67,12 +68,7 @@ macro_rules! fields {
                 "An image map that takes the place of the exponent.",
             ),
             ROUGHNESS,
-            Field::new(
-                "roughness_map",
-                Kind::Block(&TEXTURE),
-                Presence::Optional,
-                "An image map that takes the place of the roughness. Below 0 it counts as 0, and above 1 as 1, with a warning.",
-            ),
+            ROUGHNESS_MAP,
             Field::new(
                 "specular_reflectivity_texture",
                 Kind::Block(&TEXTURE),
@@ -161,12 +157,6 @@ pub(in crate::materials) const PARAMETERS: &[Parameter] = &[
         stand_in: StandIn::Text("1000"),
     },
     ROUGHNESS_PARAMETER,
-    Parameter {
-        name: "fresnel_scale",
-        since: "3.0",
-        constant: "fresnel_scale",
-        texture: "",
-        stand_in: StandIn::Text("1"),
-    },
+    FRESNEL_SCALE_PARAMETER,
     BUMP,
 ];
