@@ -18,6 +18,7 @@ pub mod phase;
 mod reflectance;
 mod scatter;
 mod shading;
+mod thin_film;
 mod wrong_side;
 
 pub use bump::bumped_normal;

@@ -7,6 +7,7 @@
 mod common;
 
 mod albedo;
+mod coats;
 mod colour;
 mod coloured_media;
 mod direct_light;

@@ -19,26 +19,30 @@
 //!
 //! `docs/theory/gloss.md` has a table of E.
 
+mod body;
 mod declare;
+mod leaf;
 
 pub use declare::BLOCK;
 pub(super) use declare::FAST_SSS_FIELDS;
+pub use leaf::PhongLeaf;
 
 use super::fields::disregard_exponents;
 use super::{MaterialContext, MaterialResources, SurfaceKind};
 use crate::directional_albedo::{AlbedoRow, LaneRows};
-use crate::fresnel::{conductor, dielectric, diffuse_average, schlick};
+use crate::fresnel::{conductor, dielectric, diffuse_average};
 use crate::immersion::{self, ByIndex};
 use crate::media::Medium;
 use crate::microfacet::Microfacets;
 use crate::reflectance::Reflectance;
-use crate::scatter::{Crossing, LocalSample, Scatter};
+use crate::thin_film;
+use body::Body;
 use indigo_decl::{Node, codes};
 use indigo_diag::{Diagnostic, Sink};
-use indigo_math::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
-use indigo_math::{Float, Real, Vec2, Vec3};
-use indigo_spectrum::{LanePdf, SampledSpectrum, Spectrum};
+use indigo_math::{Float, Real, Vec2};
+use indigo_spectrum::{SampledSpectrum, Spectrum};
 use indigo_texture::TextureId;
+use leaf::Fresnel;
 
 /// A glossy surface.
 #[derive(Clone, Debug)]
@@ -55,12 +59,21 @@ pub struct Phong {
 #[derive(Clone, Debug)]
 enum Kind {
     /// A dielectric of an index of refraction over a diffuse ground. Where the ground's reflectance is as it is without
-    /// the coat, the part of its light that the coat lets out; it is as it is seen through the coat otherwise.
-    Coat { eta: Real, ground: Reflectance, lets_out: Option<ByIndex<Real>> },
-    /// A metal of a complex index n + ik, with its average reflectance.
-    Measured { n: Spectrum, k: Spectrum, average: ByIndex<Spectrum> },
+    /// the coat, what lies between them; it is as it is seen through the coat otherwise.
+    Coat { eta: Real, ground: Reflectance, body: Option<Body> },
+    /// A metal of a complex index n + ik, with its average reflectance, bare or under a film.
+    Measured { n: Spectrum, k: Spectrum, film: Option<Film>, average: ByIndex<Spectrum> },
     /// A metal of a reflectance along its normal, whatever lies outside.
     Schlick { r0: Reflectance },
+}
+
+/// A clear film that is thin enough for light to interfere in it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Film {
+    /// Its index of refraction against vacuum.
+    pub index: Real,
+    /// m.
+    pub thickness: Real,
 }
 
 /// How smooth the surface is.
@@ -90,7 +103,12 @@ impl Phong {
             disregard(&coat);
             disregard(&METAL);
             let [n, k] = resources.complex_index(node, "nk_data");
-            Kind::Measured { average: ByIndex::new(&[1.0], |_| average_of_metal(&n, &k, 1.0)), n, k }
+            Kind::Measured {
+                average: ByIndex::new(&[1.0], |_| average_of_metal(&n, &k, None, 1.0)),
+                n,
+                k,
+                film: None,
+            }
         } else if METAL.iter().any(|field| node.has(field)) {
             disregard(&coat);
             Kind::Schlick { r0: Reflectance::build(node, METAL, None, resources) }
@@ -98,16 +116,18 @@ impl Phong {
             let ground = ["albedo_texture", "diffuse_albedo_spectrum"];
             let ground = Reflectance::build(node, ground, Some("diffuse"), resources);
             let eta = Real::from_f64(index_of_coat(node, resources.sink()));
-            Kind::Coat { eta, ground, lets_out: None }
+            Kind::Coat { eta, ground, body: None }
         };
         let gloss = Gloss::build(node, resources);
         Self::of(kind, gloss, scale_of(node))
     }
 
-    /// A coat of an index, as rough as an element says, over a ground whose reflectance is as it is without the coat.
+    /// A coat of an index, as rough as an element says, over a ground whose reflectance is as it is without the coat; with the
+    /// optical depth of one that absorbs.
     pub(super) fn coat(
         node: &Node,
         eta: Real,
+        depth: Option<Spectrum>,
         ground: Reflectance,
         resources: &mut dyn MaterialResources,
     ) -> Self {
@@ -122,8 +142,16 @@ impl Phong {
             ))),
         };
         let scale = scale_of(node);
-        let lets_out = ByIndex::new(&[1.0], |outside| let_out(eta / outside, scale));
-        Self::of(Kind::Coat { eta, ground, lets_out: Some(lets_out) }, gloss, scale)
+        let body = Some(Body::new(eta, scale, depth, &[1.0]));
+        Self::of(Kind::Coat { eta, ground, body }, gloss, scale)
+    }
+
+    /// The same measured metal under a film, which follows its facets and scales what they reflect; `None` if it is not measured.
+    pub(super) fn under(&self, film: Film, fresnel_scale: Real) -> Option<Self> {
+        let Kind::Measured { n, k, .. } = &self.kind else { return None };
+        let average = ByIndex::new(&[1.0], |_| average_of_metal(n, k, Some(film), 1.0));
+        let kind = Kind::Measured { n: n.clone(), k: k.clone(), film: Some(film), average };
+        Some(Self { kind, fresnel_scale: self.fresnel_scale * fresnel_scale, ..self.clone() })
     }
 
     fn of(kind: Kind, gloss: Gloss, fresnel_scale: Real) -> Self {
@@ -146,21 +174,32 @@ impl Phong {
         };
         let (lambda, outside, scale) = (context.lambda, context.interface.above, self.fresnel_scale);
         let rows = self.rows_at(facets, outside);
+        let mut veil = SampledSpectrum::ZERO;
         let (fresnel, base) = match &self.kind {
-            Kind::Coat { eta, ground, lets_out } => {
+            Kind::Coat { eta, ground, body } => {
                 let mut base = ground.eval(context, uv);
-                if let Some(lets_out) = lets_out {
-                    let (low, high, mix) = lets_out.around(outside);
-                    let part = SampledSpectrum::splat(*low) + mix * (high - low);
-                    base = base * part / (SampledSpectrum::ONE - base + base * part);
+                if let Some(body) = body {
+                    (base, veil) = body.over(base, outside, lambda);
                 }
                 (Fresnel::Coat { eta: SampledSpectrum::splat(*eta) / outside }, base)
             }
-            Kind::Measured { n, k, average } => {
+            Kind::Measured { n, k, film, average } => {
                 let (low, high, mix) = average.around(outside);
                 let (low, high) = (low.eval(lambda), high.eval(lambda));
-                let fresnel = Fresnel::Conductor { n: n.eval(lambda) / outside, k: k.eval(lambda) / outside };
-                (fresnel, between((low + (high - low) * mix) * scale, &rows))
+                let average = low + (high - low) * mix;
+                let (n, k) = (n.eval(lambda) / outside, k.eval(lambda) / outside);
+                let fresnel = match film {
+                    None => Fresnel::Conductor { n, k },
+                    Some(film) => Fresnel::Film {
+                        n,
+                        k,
+                        film: SampledSpectrum::splat(film.index) / outside,
+                        turns: SampledSpectrum::from_fn(|lane| {
+                            film.turns(outside[lane], lambda.lambda[lane])
+                        }),
+                    },
+                };
+                (fresnel, between(average * scale, &rows))
             }
             Kind::Schlick { r0 } => {
                 let r0 = r0.eval(context, uv);
@@ -169,7 +208,7 @@ impl Phong {
                 (Fresnel::Schlick { r0 }, between(average * scale, &rows))
             }
         };
-        PhongLeaf { facets, fresnel, fresnel_scale: scale, base, rows }
+        PhongLeaf { facets, fresnel, fresnel_scale: scale, base, veil, rows }
     }
 
     /// The rows of facets for the indices of what lies outside.
@@ -193,11 +232,12 @@ fn scale_of(node: &Node) -> Real {
     Real::from_f64(node.real("fresnel_scale").min(1.0))
 }
 
-/// The part of a diffuse ground's light that a coat of a relative index lets out at once, at most 1; the rest is thrown back to
-/// the ground. By reciprocity it is (1 − R̄) / η² for a coat that reflects R̄ of even light from outside.
-fn let_out(eta: Real, scale: Real) -> Real {
-    let outside = diffuse_average(|cos| dielectric(cos, eta).reflectance * scale);
-    Real::from_f64(((1.0 - outside) / (eta * eta).to_f64()).min(1.0))
+impl Film {
+    /// Twice its thickness in wavelengths under an index outside, for a wavelength in vacuum in nm.
+    #[inline]
+    fn turns(self, outside: Real, nm: Real) -> Real {
+        2e9 * self.thickness * outside / nm
+    }
 }
 
 impl SurfaceKind for Phong {
@@ -207,14 +247,13 @@ impl SurfaceKind for Phong {
         if indices.len() == 1 {
             return;
         }
-        if let Kind::Measured { n, k, average } = &mut self.kind {
-            *average = ByIndex::new(&indices, |outside| average_of_metal(n, k, outside));
+        if let Kind::Measured { n, k, film, average } = &mut self.kind {
+            *average = ByIndex::new(&indices, |outside| average_of_metal(n, k, *film, outside));
         }
         // Those of white facets are the same everywhere.
-        if let Kind::Coat { eta, lets_out, .. } = &mut self.kind {
-            let (eta, scale) = (*eta, self.fresnel_scale);
-            if let Some(lets_out) = lets_out {
-                *lets_out = ByIndex::new(&indices, |outside| let_out(eta / outside, scale));
+        if let Kind::Coat { eta, body, .. } = &mut self.kind {
+            if let Some(body) = body {
+                *body = body.immersed(*eta, self.fresnel_scale, &indices);
             }
             self.rows = self.kind.rows(self.gloss, self.fresnel_scale, &indices);
         }
@@ -288,12 +327,18 @@ fn index_of_coat(node: &Node, sink: &mut Sink) -> f64 {
 }
 
 /// The average reflectance of a metal under an index outside, at 5 nm.
-fn average_of_metal(n: &Spectrum, k: &Spectrum, outside: Real) -> Spectrum {
+fn average_of_metal(n: &Spectrum, k: &Spectrum, film: Option<Film>, outside: Real) -> Spectrum {
     let values: Vec<f64> = (0..=94)
         .map(|i| {
             let lambda = 360.0 + 5.0 * f64::from(i);
-            let (n, k) = (Real::from_f64(n.at(lambda)), Real::from_f64(k.at(lambda)));
-            diffuse_average(|cos| conductor(cos, n / outside, k / outside))
+            let metal = [n, k].map(|part| Real::from_f64(part.at(lambda)) / outside);
+            diffuse_average(|cos| match film {
+                None => conductor(cos, metal[0], metal[1]),
+                Some(film) => {
+                    let turns = film.turns(outside, Real::from_f64(lambda));
+                    thin_film::reflectance(cos, film.index / outside, metal, turns)
+                }
+            })
         })
         .collect();
     Spectrum::regular_tabulated(360e-9, 830e-9, &values).unwrap_or(Spectrum::uniform(1.0))
@@ -308,103 +353,4 @@ fn between(average: SampledSpectrum, rows: &LaneRows) -> SampledSpectrum {
         let f = average[lane];
         f * f * out[lane] / (1.0 - f * (1.0 - out[lane]))
     })
-}
-
-/// How much a facet reflects.
-#[derive(Clone, Copy, Debug)]
-enum Fresnel {
-    Coat { eta: SampledSpectrum },
-    Conductor { n: SampledSpectrum, k: SampledSpectrum },
-    Schlick { r0: SampledSpectrum },
-}
-
-impl Fresnel {
-    #[inline]
-    fn eval(&self, cos: Real) -> SampledSpectrum {
-        match self {
-            Self::Coat { eta } => {
-                let of = |eta: Real| dielectric(cos, eta).reflectance;
-                // Mostly the same at all wavelengths.
-                let hero = of(eta.hero());
-                eta.map(|lane| if lane == eta.hero() { hero } else { of(lane) })
-            }
-            Self::Conductor { n, k } => SampledSpectrum::from_fn(|lane| conductor(cos, n[lane], k[lane])),
-            Self::Schlick { r0 } => r0.map(|r0| schlick(cos, r0)),
-        }
-    }
-}
-
-/// Facets, and what they do not reflect at once: in a coat it reaches the ground, on a metal other facets.
-///
-/// Either is drawn with the share that it has of the light seen from `wo`, in each lane by itself.
-#[derive(Clone, Copy, Debug)]
-pub struct PhongLeaf {
-    facets: Microfacets,
-    fresnel: Fresnel,
-    /// What multiplies the reflectance.
-    fresnel_scale: Real,
-    /// The share of the light not reflected at once that is scattered in the end.
-    base: SampledSpectrum,
-    /// Albedo of the facets: of the coat, or of white facets.
-    rows: LaneRows,
-}
-
-impl PhongLeaf {
-    /// What colours the row of the facets' albedo, roughly; the row of a coat has it in.
-    #[inline]
-    fn tint(&self, cos: Real) -> SampledSpectrum {
-        match self.fresnel {
-            Fresnel::Coat { .. } => SampledSpectrum::ONE,
-            _ => self.fresnel.eval(cos) * self.fresnel_scale,
-        }
-    }
-
-    /// The share of draws that the facets get.
-    #[inline]
-    fn gloss_share(&self, wo: Vec3) -> LanePdf {
-        let albedo = self.rows.at(wo.z);
-        let tint = self.tint(wo.z);
-        LanePdf::from_fn(|lane| {
-            let (gloss, base) = (tint[lane] * albedo[lane], self.base[lane] * (1.0 - albedo[lane]));
-            if base > 0.0 { gloss / (gloss + base) } else { 1.0 }
-        })
-    }
-}
-
-impl Scatter for PhongLeaf {
-    #[inline]
-    fn is_matt(&self) -> bool {
-        matches!(self.fresnel, Fresnel::Coat { .. })
-    }
-
-    #[inline]
-    fn f(&self, wo: Vec3, wi: Vec3, crossing: Crossing) -> SampledSpectrum {
-        let Some(h) = (wo + wi).try_normalized().filter(|_| crossing == Crossing::Reflect) else {
-            return SampledSpectrum::ZERO;
-        };
-        let gloss = self.facets.density(h) * self.facets.shared_over_cosines(wo, wi);
-        self.fresnel.eval(wo.dot(h)) * (self.fresnel_scale * gloss)
-            + self.base * self.rows.complement(wo.z, wi.z)
-    }
-
-    #[inline]
-    fn pdf(&self, wo: Vec3, wi: Vec3, crossing: Crossing) -> LanePdf {
-        let Some(h) = (wo + wi).try_normalized().filter(|_| crossing == Crossing::Reflect) else {
-            return LanePdf::ZERO;
-        };
-        let share = self.gloss_share(wo);
-        let (gloss, base) = (0.25 * self.facets.pdf_over_dot(wo, h), cosine_hemisphere_pdf(wi.z));
-        LanePdf::from_fn(|lane| share[lane] * gloss + (1.0 - share[lane]) * base)
-    }
-
-    #[inline]
-    fn sample(&self, wo: Vec3, u: [Real; 3]) -> Option<LocalSample> {
-        if u[2] >= self.gloss_share(wo).hero() {
-            return Some(LocalSample::smooth(cosine_hemisphere(Vec2::new(u[0], u[1])), Crossing::Reflect));
-        }
-        let h = self.facets.sample(wo, [u[0], u[1]]);
-        let wi = h * (2.0 * wo.dot(h)) - wo;
-        // A facet that sends light into the surface: lost here, and given back by the row's complement.
-        (wi.z > 0.0).then(|| LocalSample::smooth(wi, Crossing::Reflect))
-    }
 }

@@ -44,6 +44,14 @@ const EXAMPLES: &[&str] = &[
     "<specular><internal_medium_name>glass</internal_medium_name><transparent>false</transparent></specular>",
 ];
 
+/// Coats over white, and films on gold.
+const COATS: &[&str] = &[
+    "<coating><substrate_material_name>below</substrate_material_name><ior>1.6</ior><roughness>0.5</roughness></coating>",
+    "<coating><substrate_material_name>below</substrate_material_name><roughness>0.4</roughness><thickness>0.001</thickness><absorption><constant><rgb><rgb>900 300 40</rgb></rgb></constant></absorption></coating>",
+    "<coating><substrate_material_name>below</substrate_material_name><ior>2.2</ior><interference>true</interference><thickness>1.7e-7</thickness></coating>",
+    "<coating><substrate_material_name>below</substrate_material_name><ior>1.4</ior><fresnel_scale>0.7</fresnel_scale><interference>true</interference><thickness>2e-6</thickness></coating>",
+];
+
 /// Coats inside of media that are denser than they are, one of them dispersive (SF10), or whose index for some wavelengths
 /// only is above theirs.
 const IMMERSED: &[(&str, Cauchy)] = &[
@@ -58,6 +66,14 @@ const IMMERSED: &[(&str, Cauchy)] = &[
     (
         "<phong><ior>1.5</ior><exponent>3</exponent><diffuse_albedo_spectrum><uniform><value>1</value></uniform></diffuse_albedo_spectrum></phong>",
         Cauchy { a: 1.45, b: 0.02 },
+    ),
+    (
+        "<coating><substrate_material_name>below</substrate_material_name><roughness>0.6</roughness><thickness>0.001</thickness><absorption><constant><uniform><value>200</value></uniform></constant></absorption></coating>",
+        Cauchy { a: 1.45, b: 0.02 },
+    ),
+    (
+        "<coating><substrate_material_name>below</substrate_material_name><interference>true</interference><thickness>3e-7</thickness></coating>",
+        Cauchy { a: 1.728, b: 0.01342 },
     ),
 ];
 
@@ -208,7 +224,9 @@ fn sharpness(text: &str) -> Real {
     let exponent = text.split("<exponent>").nth(1).and_then(|rest| rest.split('<').next());
     let n: Real = exponent.map_or(0.0, |n| n.parse().expect("a number"));
     let refraction = if text.contains("<glossy_transparent>") { 3.0 } else { 1.0 };
-    refraction * (1.0 + (0.5 * n).sqrt())
+    // Near the angle of total reflection the way through a coat goes like one over a cosine, and the cosine like a root.
+    let way = if text.contains("<absorption>") { 4.0 } else { 1.0 };
+    way * refraction * (1.0 + (0.5 * n).sqrt())
 }
 
 /// The models of which directions can be asked: those that are not of delta kind alone.
@@ -223,10 +241,10 @@ pub fn delta_examples() -> Vec<Example> {
     all_examples().into_iter().filter(|e| !e.leaf(&lambda).is_connectable()).collect()
 }
 
-/// All models that are rendered: of each kind the declaration's example, and then [`EXAMPLES`] and [`IMMERSED`].
+/// All models that are rendered: of each kind the declaration's example, and then [`EXAMPLES`], [`COATS`] and [`IMMERSED`].
 pub fn all_examples() -> Vec<Example> {
     let declared = KINDS.iter().map(|block| block.example);
-    let in_air = declared.chain(EXAMPLES.iter().copied()).flat_map(example);
+    let in_air = declared.chain(EXAMPLES.iter().copied()).chain(COATS.iter().copied()).flat_map(example);
     let immersed = IMMERSED.iter().flat_map(|&(text, outside)| {
         example(text).into_iter().map(move |mut example| {
             example.material.immerse(&[Medium::AIR, Medium::clear(outside)]);
@@ -238,13 +256,26 @@ pub fn all_examples() -> Vec<Example> {
 
 /// The model of an element, from both sides where they differ; nothing where it has no leaf.
 pub fn example(text: &'static str) -> Vec<Example> {
+    if text.is_empty() {
+        return vec![];
+    }
     let mut sink = Sink::new();
     let file = format!("<material><name>m</name>{text}</material>");
     let root = read_document("m", &Text(file), &mut SourceMap::default(), &mut sink, &Limits::default());
     let node = bind(root.expect("readable text"), &MATERIAL, &mut sink);
     assert!(!sink.has_errors(), "{text}: {:?}", sink.diagnostics());
     let kind = node.alternative().expect("a kind of material");
-    let material = Material::build(kind, &mut Plain { sink, other: Material::black() });
+    let below = match kind.block.name {
+        "coating" if kind.bool("interference") => {
+            "<phong><nk_data>gold.nk</nk_data><exponent>3</exponent></phong>"
+        }
+        "coating" => {
+            "<diffuse><albedo_spectrum><uniform><value>1</value></uniform></albedo_spectrum></diffuse>"
+        }
+        _ => "",
+    };
+    let other = example(below).pop().map_or_else(Material::black, |below| below.material);
+    let material = Material::build(kind, &mut Plain { sink, other });
     let kind = kind.block.name;
     let sides: &[bool] = match material {
         Material::Null | Material::Blend(_) => &[],

@@ -16,6 +16,7 @@ use crate::codes;
 use crate::settings::Settings;
 use indigo_decl::Node;
 use indigo_diag::{Diagnostic, Sink, Span, Spanned};
+use indigo_scatter::materials::coating;
 use indigo_scatter::{Material, MaterialId, MaterialResources, Medium, MediumId};
 use indigo_texture::Texture;
 use resources::Resources;
@@ -122,14 +123,15 @@ impl<'a> MaterialTable<'a> {
         id
     }
 
-    /// The material that stands in for a kind which is not rendered as it is meant: of a coat over anything but `diffuse`
+    /// The material that stands in for a kind which is not rendered as it is meant: of a coat over what it is not rendered over
     /// what is below.
     fn stand_in_of(&self, kind: &Node) -> Option<Spanned<String>> {
         if kind.block.name != "coating" {
             return stand_in(kind);
         }
         let below = kind.opt_text("substrate_material_name")?;
-        let is_rendered = self.kind_of(&below.value).is_none_or(|below| below.block.name == "diffuse");
+        let is_rendered =
+            self.kind_of(&below.value).is_none_or(|below| coating::is_rendered_over(kind, below));
         if is_rendered {
             return None;
         }
@@ -303,7 +305,7 @@ fn report_stand_in(kind: &Node, other: &Spanned<String>, sink: &mut Sink) {
         kind.span,
         if kind.block.name == "coating" {
             format!(
-                "a <coating> is rendered over <diffuse> alone: {} stands in without its coat",
+                "a <coating> is rendered over <diffuse>, and with <interference> over a <phong> of <nk_data>: {} stands in without its coat",
                 other.value
             )
         } else {

@@ -76,6 +76,7 @@ fn beside(scene: String) -> Memory {
         ("b.bmp", bmp([[9, 9, 9], [250, 250, 250]])),
         ("sky.hdr", hdr([[10, 20, 30, 129], [200, 100, 50, 131]])),
         ("lamp.ies", include_bytes!("../../../../testscenes/ies/lambert_1000cd.ies").to_vec()),
+        ("au.nk", include_bytes!("../../../../nkdata/au.nk").to_vec()),
     ])
 }
 

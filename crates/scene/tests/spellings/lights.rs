@@ -262,13 +262,30 @@ fn what_cannot_shine_is_told() {
             sphere.replace(">m<", ">c<")
         )
     };
-    // A coat over what is diffuse is rendered, but for what it absorbs.
+    // A coat over what is diffuse is rendered.
     scene_with(&coated(other), &[]);
     let absorbs = other.replace("<value>0<", "<value>9<");
-    scene_with(&coated(&absorbs), &["W0102 <absorption> of a <coating> is of a later format version"]);
+    scene_with(&coated(&absorbs), &["W0102 <absorption> of a <coating> without a <thickness> has no effect"]);
+    let thick = "<thickness><constant>0.01</constant></thickness></coating>";
+    scene_with(&coated(&absorbs.replace("</coating>", thick)), &[]);
+    let film = other.replace("</coating>", "<interference>true</interference></coating>");
+    scene_with(&coated(&film), &["W0102 <interference> of a <coating> over <diffuse> has no effect"]);
+    let on_metal = |more: &str| {
+        let metal =
+            material("gold", "<phong><nk_data>au.nk</nk_data><exponent>100</exponent></phong>");
+        coated(&film.replace(">m<", ">gold<").replace("</coating>", &format!("{more}</coating>"))) + &metal
+    };
+    scene_with(&on_metal("<thickness>2e-7</thickness>"), &[]);
+    scene_with(
+        &on_metal("<roughness>0.2</roughness>").replace("<value>0<", "<value>9<"),
+        &[
+            "W0102 <absorption> of a <coating> with <interference> has no effect",
+            "W0102 <roughness> of a <coating> with <interference> has no effect",
+        ],
+    );
     let double =
         coated(other) + &material("cc", &other.replace(">m<", ">c<")) + &sphere.replace(">m<", ">cc<");
-    scene_with(&double, &["W0320 a <coating> is rendered over <diffuse> alone: c stands in"]);
+    scene_with(&double, &["W0320 a <coating> is rendered over <diffuse>, and with <interference>"]);
     scene_with(
         &coated(
             "<fast_sss><albedo><constant><uniform><value>0.5</value></uniform></constant></albedo></fast_sss>",

@@ -215,6 +215,22 @@ fn thin_sheets_and_coats_take_their_numbers_in_wrappers() {
         ),
         &coat(by_name, "<ior>1.6</ior>"),
     ]);
+    let bare = "<absorption_spectrum><uniform><value>200</value></uniform></absorption_spectrum>";
+    let wrapped = "<absorption><constant><uniform><value>200</value></uniform></constant></absorption>";
+    assert_same([
+        &coat(by_name, &format!("{bare}<thickness>0.001</thickness>")),
+        &coat(by_name, &format!("{wrapped}<thickness><constant>0.001</constant></thickness>")),
+        &coat(by_name, &format!("{wrapped}<thickness><constant>0.002</constant></thickness>")),
+    ]);
+    let on_gold = |more: &str| {
+        let gold = material("a", "<phong><nk_data>au.nk</nk_data><exponent>100</exponent></phong>");
+        of(&format!("<coating>{by_name}<interference>true</interference>{more}</coating>")) + &gold
+    };
+    assert_same([
+        &on_gold("<thickness>2e-7</thickness><ior>1.7</ior>"),
+        &on_gold("<thickness><constant>2e-7</constant></thickness><ior><constant>1.7</constant></ior>"),
+        &on_gold("<thickness>2e-7</thickness>"),
+    ]);
 }
 
 #[test]

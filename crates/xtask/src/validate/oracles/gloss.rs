@@ -17,7 +17,46 @@ pub fn checks() -> Vec<Check> {
     let coats = [(40.0, 0.5, 0.0), (40.0, 0.5, 60.0), (1e12, 0.2, 70.0)].map(|(n, grey, d)| coat(n, grey, d));
     let clays =
         [(0.5, 0.5, 0.0), (0.5, 0.5, 70.0), (0.9, 0.3, 50.0)].map(|(sigma, grey, d)| clay(sigma, grey, d));
-    [coats, clays].concat()
+    let tinted = [(0.5, 0.2, 0.0), (0.8, 0.5, 60.0)].map(|(grey, depth, d)| absorbing_coat(grey, depth, d));
+    [coats.as_slice(), &clays, &tinted].concat()
+}
+
+/// A smooth coat of index 1.5 and an optical depth along the normal, over grey ground.
+fn absorbing_coat(grey: f64, depth: f64, degrees: f64) -> Check {
+    const INDEX: f64 = 1.5;
+    const THICKNESS: f64 = 1e-3;
+    let inside = |cos: f64| (1.0 - (1.0 - cos * cos) / (INDEX * INDEX)).sqrt();
+    let through = |cos: f64| (1.0 - fresnel(cos, INDEX)) * (-depth / inside(cos)).exp();
+    // By the root of the cosine, of which Fresnel's reflectance at grazing angles is smooth.
+    let enters = integral(0.0, 1.0, 200, |s| 4.0 * s.powi(3) * through(s * s));
+    let critical = inside(0.0);
+    let way = |cos: f64| 2.0 * cos * (-2.0 * depth / cos).exp();
+    let partly = |s: f64| 4.0 * s.powi(3) * fresnel(s * s, INDEX) * (-2.0 * depth / inside(s * s)).exp();
+    let back = integral(0.0, critical, 200, way) + integral(0.0, 1.0, 200, partly) / (INDEX * INDEX);
+    let cos = degrees.to_radians().cos();
+    let ground = enters * grey / (1.0 - grey * back) * through(cos) / (INDEX * INDEX);
+    let kind = format!(
+        "<coating><substrate_material_name>ground</substrate_material_name><ior>{INDEX}</ior><thickness>{THICKNESS}</thickness>\
+         <absorption><constant>{}</constant></absorption></coating>",
+        uniform(depth / THICKNESS)
+    );
+    let about = format!(
+        "F + A ρ T / ((1 − ρ r) n²), n = {INDEX}, ρ = {grey}, optical depth {depth}: Fresnel's F; T = (1 − F) exp(−τ / cos′) towards \
+         the eye; A = {enters:.5}, the same of even light; and r = {back:.5} of the ground's light that the coat throws back, by \
+         quadrature (Saunderson 1942, with absorption)."
+    );
+    let name = format!("coat of optical depth {depth} over grey at {degrees}°");
+    let parts = [
+        material(
+            "ground",
+            &format!("<diffuse><albedo_spectrum>{}</albedo_spectrum></diffuse>", uniform(grey)),
+        ),
+        material("m", &kind),
+    ];
+    Check::new(GROUP, name, about, sheet_in_even_light(degrees, &parts))
+        .unit(super::AROUND_NITS)
+        .is(fresnel(cos, INDEX) + ground, TABULATED)
+        .by(TECHNIQUES)
 }
 
 /// A glossy coat of index 1.5: what the facets do not reflect reaches the ground.
