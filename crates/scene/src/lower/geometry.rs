@@ -31,6 +31,9 @@ fn box_corners(transform: &Transform, reach: f64) -> impl Iterator<Item = Vec3d>
     })
 }
 
+/// What a model says of the materials of its mesh.
+const OF_MATERIALS: [&str; 3] = ["materials", "emission_scale", "ies_profile"];
+
 /// An instance of a mesh.
 pub(super) struct Placed {
     pub(super) mesh: u32,
@@ -250,8 +253,12 @@ impl<'a> Geometry<'a> {
         meshes: &mut MeshTable,
         materials: &mut MaterialTable,
         context: &mut Context,
-    ) -> Option<()> {
-        let placed = self.place(node, false, meshes, materials, context)?;
+    ) {
+        let Some(placed) = self.place(node, false, meshes, materials, context) else {
+            // The fault of its mesh is told; nothing is wrong with what goes with that mesh.
+            node.disregard();
+            return;
+        };
         closed::warn_if_open(&placed, node.span_of("mesh_name"), meshes, materials, context.sink);
         let count = placed.slots.len() as u32;
         let emits =
@@ -286,7 +293,6 @@ impl<'a> Geometry<'a> {
             let movement = placed.movement.filter(|_| count > 0 && mesh == placed.mesh);
             self.movements.extend(movement.map(|movement| (object, movement.moved_by(-self.origin))));
         }
-        Some(())
     }
 
     /// Adds a mesh light; the number of the object and of its mesh, or `None` after reporting what is wrong.
@@ -321,8 +327,8 @@ impl<'a> Geometry<'a> {
         let mesh = meshes.get(&called, name.span, context)?;
         let id = mesh.id;
         let (named, slots) = if mesh.is_stand_in {
-            if node.block.declares("materials") {
-                node.disregard_field("materials");
+            if !is_lamp {
+                node.disregard_fields(&OF_MATERIALS);
             }
             (vec![(String::new(), name.span)], vec![materials.stand_in()])
         } else {

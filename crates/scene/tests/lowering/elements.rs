@@ -91,8 +91,11 @@ fn something_stands_in_for_files_that_are_missing_if_that_is_asked_for() {
     // Whatever its scale and its materials, a metre wide; the lamp shines beside the background.
     let mesh = "<mesh><name>m</name><scale>0.001</scale><external><path>none.obj</path></external></mesh>";
     let placed = "<pos>0 0 0</pos><scale>1</scale><mesh_name>m</mesh_name>";
-    let model =
-        format!("{mesh}<model>{placed}<materials><material_name>white</material_name></materials></model>");
+    let lit = "<material><name>lit</name><diffuse><base_emission><uniform><value>1</value></uniform></base_emission></diffuse></material>";
+    let scale = "<emission_scale><material_name>lit</material_name><measure>luminance</measure><value>1</value></emission_scale>";
+    let model = format!(
+        "{mesh}{lit}<model>{placed}<materials><material_name>white</material_name></materials>{scale}</model>"
+    );
     let lamp = format!(
         "{mesh}<meshlight>{placed}<spectrum><uniform><value>1</value></uniform></spectrum></meshlight>"
     );

@@ -237,6 +237,31 @@ fn faults_have_no_false_followers() {
     assert!(codes.len() == 1 && codes[0].ends_with("E0101"), "{codes:?}");
 }
 
+/// What a model says of its materials is sound, though its mesh is not.
+#[test]
+fn a_mesh_that_cannot_be_read_is_the_only_fault_of_its_model() {
+    let of_white = "<material_name>white</material_name>";
+    let scale = "<measure>luminance</measure><value>1</value>";
+    let model = format!(
+        "<model2><pos>0 0 0</pos><scale>1</scale><mesh_name>m</mesh_name><materials>{of_white}</materials>\
+         <emission_scale><material_name>lit</material_name>{scale}</emission_scale>\
+         <ies_profile><material_name>lit</material_name><path>none.ies</path></ies_profile></model2>\
+         <material><name>lit</name><diffuse><base_emission><uniform><value>1</value></uniform></base_emission></diffuse></material>"
+    );
+    for (file, code) in [("broken.obj", "E0303"), ("none.obj", "E0302")] {
+        let mesh = format!("<mesh><name>m</name><external><path>{file}</path></external></mesh>");
+        expect_one(&format!("{mesh}{model}"), file, code);
+    }
+    // Of a name that no mesh has.
+    expect_one(&model, "m</mesh_name>", "E0301");
+    // Materials that are not there are faults of their own.
+    let mesh = "<mesh><name>m</name><external><path>broken.obj</path></external></mesh>";
+    let line = format!("{mesh}{}", model.replace(of_white, "<material_name>whitr</material_name>"));
+    let column = line.find("whitr").expect("it is there") + 1;
+    let found = found(&format!("{line}{CAMERA}"));
+    assert!(found.len() == 2 && found.contains(&format!("{LINE}:{column}:E0301")), "{found:?}");
+}
+
 #[test]
 fn directions_are_reported_where_they_are_wrong() {
     for (from, to, at) in [
