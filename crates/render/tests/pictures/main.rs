@@ -22,6 +22,7 @@ mod materials;
 mod media;
 mod portals;
 mod prism;
+mod shining;
 mod surfaces;
 mod thick;
 mod wine_glass;

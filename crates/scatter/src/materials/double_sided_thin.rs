@@ -6,6 +6,9 @@
 
 use super::blend::Choice;
 use super::diffuse_transmitter::DiffuseTransmitter;
+use super::fields::{
+    BASE_EMISSION, BASE_EMISSION_PARAMETER, EMISSION, EMISSION_PARAMETER, EMISSION_TEXTURE, LAYER,
+};
 use super::{Material, MaterialContext, MaterialId, MaterialResources, Surface};
 use crate::reflectance::Reflectance;
 use indigo_decl::{Block, Field, Kind, Later, Node, Parameter, Presence, Range, StandIn, codes};
@@ -56,15 +59,23 @@ pub static BLOCK: Block = Block::new(
             Presence::Optional,
             "An image map that takes the place of `transmittance_spectrum`.",
         ),
+        BASE_EMISSION,
+        EMISSION,
+        EMISSION_TEXTURE,
+        LAYER,
     ],
 )
-.with_parameters(&[Parameter {
-    name: "transmittance",
-    since: "3.0",
-    constant: "transmittance_spectrum",
-    texture: "transmittance_texture",
-    stand_in: StandIn::Uniform("0.5"),
-}])
+.with_parameters(&[
+    Parameter {
+        name: "transmittance",
+        since: "3.0",
+        constant: "transmittance_spectrum",
+        texture: "transmittance_texture",
+        stand_in: StandIn::Uniform("0.5"),
+    },
+    BASE_EMISSION_PARAMETER,
+    EMISSION_PARAMETER,
+])
 .with_later(&[
     Later::new("displacement", "1.1").instead("is left out: the surface stays where its mesh is"),
     Later::new("bump", "3.0"),

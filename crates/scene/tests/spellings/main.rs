@@ -5,3 +5,4 @@ mod geometry;
 mod lights;
 mod materials;
 mod real;
+mod shining;
