@@ -4,7 +4,7 @@ use crate::console::Console;
 use crate::{refuse, refuse_scene, tell_findings};
 use indigo_front::flags::Arguments;
 use indigo_front::load::with_load_options;
-use indigo_front::messages::Messages as _;
+use indigo_front::messages::{Messages as _, count};
 use indigo_front::packs::is_pack;
 use indigo_front::prepare::overwrites;
 use indigo_front::status::{BAD_INPUT, FAILED, RENDERED};
@@ -47,7 +47,11 @@ pub fn upgrade(arguments: &Arguments, console: &mut Console) -> u8 {
     }
     match write_atomically(Path::new(output), |file| file.write_all(text.as_bytes())) {
         Ok(()) => {
-            console.say(&format!("Saved {output}"));
+            let missing = match loaded.missing {
+                0 => String::new(),
+                n => format!(", without {} that it names", count(n, "file")),
+            };
+            console.say(&format!("Saved {output}{missing}"));
             RENDERED
         }
         Err(error) => {

@@ -5,7 +5,7 @@ use crate::schema::SCENE;
 use indigo_decl::{Element, bind};
 use indigo_diag::{Sink, SourceMap, Span};
 use indigo_igs::{read_scene, write_explained};
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 
 /// A scene as far as it could be written in another form.
@@ -14,6 +14,8 @@ pub struct LoadedCanonical {
     pub text: Option<String>,
     /// Paths that cannot be written: see [`load_canonical`].
     pub unreachable: Vec<String>,
+    /// How many files it names that cannot be had: those keep the paths that they had.
+    pub missing: usize,
     /// All scene files that were read.
     pub sources: SourceMap,
     /// Everything that was found: what has no effect is not in the text.
@@ -30,7 +32,8 @@ pub fn load_canonical(
     rewrite: &dyn Fn(&str, &str) -> Option<String>,
 ) -> LoadedCanonical {
     let checked = load(path, &LoadOptions { check_only: true, ..*options });
-    let nothing = |sources, sink| LoadedCanonical { text: None, unreachable: vec![], sources, sink };
+    let nothing =
+        |sources, sink| LoadedCanonical { text: None, unreachable: vec![], missing: 0, sources, sink };
     if checked.sink.has_errors() {
         return nothing(checked.sources, checked.sink);
     }
@@ -41,10 +44,12 @@ pub fn load_canonical(
         return nothing(sources, again);
     };
     let unreachable = RefCell::new(vec![]);
+    let missing = Cell::new(0);
     let known = RefCell::new(BTreeMap::new());
     let find = |written: &str, span: Span| {
-        // What is nowhere is in use nowhere, or it would have been an error.
+        // What is nowhere is in use nowhere, or has a placeholder, or it would have been an error.
         let Ok(found) = options.resolver.read(written, sources.name(span.source)) else {
+            missing.set(missing.get() + 1);
             return written.to_owned();
         };
         rewrite(written, &found.path).unwrap_or_else(|| {
@@ -64,6 +69,7 @@ pub fn load_canonical(
     LoadedCanonical {
         text,
         unreachable: unreachable.into_inner(),
+        missing: missing.get(),
         sources: checked.sources,
         sink: checked.sink,
     }

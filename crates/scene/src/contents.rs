@@ -79,8 +79,8 @@ pub fn load_contents(path: &str, options: &LoadOptions) -> LoadedContents {
     LoadedContents { contents, sources, sink }
 }
 
-/// Whether a file can be read. If not, that is warned of and the path stays as it is: nothing uses what names the file,
-/// or the scene would have had an error.
+/// Whether a file can be read. If not, that is warned of and the path stays as it is: nothing uses what names the file, or
+/// it has a placeholder, or else the scene would have had an error.
 fn is_readable(
     path: &str,
     span: Span,

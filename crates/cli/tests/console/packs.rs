@@ -234,6 +234,34 @@ fn a_scene_written_anew_renders_the_same() {
     assert!(!bench.path("good.igs").exists());
 }
 
+/// If it is asked for, a scene is packed and written anew without the textures that are missing, which it names all the same.
+#[test]
+fn placeholders_let_scenes_with_missing_files_be_written() {
+    let bench = bench();
+    std::fs::remove_file(bench.path("maps & more/wood.png")).expect("a file");
+    for (task, out) in [("--pack", "out.pigs"), ("--upgrade", "anew.igs")] {
+        let ran = bench.run(&[task, "scene.igs", out]);
+        assert_eq!(ran.status, Some(2), "{ran:?}");
+        assert!(ran.stderr.contains("E0302") && !bench.path(out).exists(), "{}", ran.stderr);
+        let ran = bench.run(&[task, "scene.igs", out, "-placeholders"]);
+        assert_eq!(ran.status, Some(0), "{ran:?}");
+        let warnings: Vec<&str> = ran.stderr.lines().filter(|line| line.contains("warning[")).collect();
+        assert!(warnings.len() == 1 && warnings[0].contains("wood.png"), "{}", ran.stderr);
+        // Read again it is the scene that it was, whether or not something stands in.
+        let render = [out, "-haltspp", "1", "-o", "a.png"];
+        let refused = bench.run(&render);
+        assert!(refused.status == Some(2) && refused.stderr.contains("E0302"), "{refused:?}");
+        let stood_in = bench.run(&[&render[..], &["-placeholders"]].concat());
+        assert_eq!(stood_in.status, Some(0), "{stood_in:?}");
+    }
+    let text = std::fs::read_to_string(bench.path("anew.igs")).expect("the scene");
+    assert!(text.contains("<path>maps &amp; more/wood.png</path>"), "{text}");
+    assert!(!text.contains("placeholders"), "{text}");
+    // It finds the file where the other scene does, once that is there again.
+    std::fs::copy(CHECKER, bench.path("maps & more/wood.png")).expect("a test scene's texture");
+    assert_eq!(bench.run(&["anew.igs", "--check"]).status, Some(0));
+}
+
 #[test]
 fn all_files_of_a_scene_are_listed_and_what_is_missing_is_told() {
     let bench = bench();

@@ -140,7 +140,7 @@ pub static FLAGS: &[Flag] = &[
         "placeholders",
         None,
         Action::SwitchOn("-placeholders", "placeholders"),
-        "Render although files of textures and meshes are missing: something that is seen at a glance stands in for them, with a warning each.",
+        "Render although files of textures and meshes are missing: something that is seen at a glance stands in for them, with a warning each. With --pack and --upgrade: write the scene without them; it names them by the paths that it had, as it does where nothing uses them.",
     ),
     flag(
         "merge",

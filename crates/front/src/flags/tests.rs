@@ -97,6 +97,10 @@ fn network_options_go_with_their_part() {
         parsed(&["a.igs", "-n", "m", "-placeholders"]).is_ok()
             && parsed(&["a.igs", "-check", "-placeholders"]).is_ok()
     );
+    for task in [["-pack", "a.igs", "b.pigs"], ["-upgrade", "a.igs", "b.igs"]] {
+        assert!(parsed(&[&task[..], &["-placeholders"]].concat()).is_ok(), "{task:?}");
+    }
+    assert!(error(&["-unpack", "a.pigs", "f", "-placeholders"]).contains("has no part in -unpack"));
     let status = |value: &str| parsed(&["a.igs", "-n", "m", "--status-port", value]).map(|a| a.status);
     assert_eq!(status("8080"), Ok(Some("127.0.0.1:8080".parse().unwrap())));
     assert_eq!(status("0.0.0.0:8080"), Ok(Some("0.0.0.0:8080".parse().unwrap())));

@@ -198,7 +198,8 @@ pub static RENDERER_SETTINGS: Block = Block::new(
             "placeholders",
             "false",
             "Whether a texture or a mesh whose file is missing is no error but a warning: magenta and black squares stand in for \
-             the texture, and a magenta cube of a metre for the mesh. A missing mesh of an `exit_portal` leaves that out.",
+             the texture, and a magenta cube of a metre for the mesh. A missing mesh of an `exit_portal` leaves that out. `--pack` and \
+             `--upgrade` write a scene that lacks such files only with it; the scene that they write names them by the paths that it had.",
         ),
         Field::new(
             "render_region",

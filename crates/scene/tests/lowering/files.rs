@@ -1,7 +1,7 @@
 //! Files: what of them is left out, and what is missing.
 
 use super::common::*;
-use indigo_scene::{LoadOptions, load};
+use indigo_scene::{LoadOptions, Override, load, load_canonical, load_contents};
 
 const SPHERE: &str =
     "<sphere><center>0 0 0</center><radius>1</radius><material_name>m</material_name></sphere>";
@@ -123,4 +123,35 @@ fn files_without_an_effect_are_looked_for_where_a_scene_is_checked() {
             "{missing:?}"
         );
     }
+}
+
+/// A scene that may have placeholders is written anew and packed without what is missing, which it names as before; another is
+/// not written.
+#[test]
+fn what_has_a_placeholder_keeps_its_path() {
+    let texture = "<material><name>m</name><diffuse><albedo_texture><path>none.png</path></albedo_texture></diffuse></material>";
+    let mesh = "<mesh><name>body</name><external><path>none.obj</path></external></mesh>";
+    let model = "<model><pos>0 0 0</pos><scale>1</scale><mesh_name>body</mesh_name></model>";
+    let memory = Memory(format!("{HEAD}{texture}{SPHERE}{mesh}{model}{CAMERA}</scene>"));
+    let overrides = [Override { option: "-placeholders", setting: "placeholders", value: "true".to_owned() }];
+    let (plain, lenient) = (options(&memory), LoadOptions { overrides: &overrides, ..options(&memory) });
+    let anew = |options| load_canonical("scene.igs", options, "Anew", &|path, _| Some(path.to_owned()));
+    let (refused, written) = (anew(&plain), anew(&lenient));
+    assert!(refused.text.is_none() && refused.sink.has_errors());
+    let text = written.text.expect("a scene");
+    for name in ["none.png", "none.obj"] {
+        assert!(text.contains(&format!("<path>{name}</path>")), "{text}");
+        let told = written.sink.diagnostics().iter().filter(|d| d.message.contains(name));
+        assert_eq!(told.map(|d| d.code).collect::<Vec<_>>(), ["W0326"], "{name}");
+    }
+    assert_eq!(written.missing, 2);
+    // It is the scene that lacks them and not what stands in for them.
+    assert!(!text.contains("placeholders"), "{text}");
+    assert!(load_contents("scene.igs", &plain).contents.is_none());
+    let packed = load_contents("scene.igs", &lenient);
+    let told: Vec<&str> = packed.sink.diagnostics().iter().map(|d| d.code).collect();
+    assert_eq!(told, ["W0316", "W0316"]);
+    let mut pack = std::io::Cursor::new(vec![]);
+    let files = packed.contents.expect("the files").pack(&mut pack, &packed.sources, &memory);
+    assert_eq!(files.expect("a pack"), 0);
 }
