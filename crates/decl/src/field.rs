@@ -222,6 +222,11 @@ impl Field {
         Self { name, aliases: &[], doc, kind, presence, range: Range::Any, unit: "", deprecated: "" }
     }
 
+    /// The number of one of several things, which are counted from 0: the first, where it is missing.
+    pub const fn index(name: &'static str, doc: &'static str) -> Self {
+        Self::new(name, Kind::Int, Presence::Default("0"), doc).range(Range::AtLeast(0.0))
+    }
+
     /// The same field with a unit.
     #[must_use]
     pub const fn unit(self, unit: &'static str) -> Self {

@@ -2,11 +2,6 @@
 
 use indigo_decl::{Block, Field, Kind, Later, Presence, Range};
 
-/// The number of a `layer_setting`.
-pub const fn layer(name: &'static str, doc: &'static str) -> Field {
-    Field::new(name, Kind::Int, Presence::Default("0"), doc).range(Range::AtLeast(0.0))
-}
-
 /// The declaration of `skylight`.
 pub static BLOCK: Block = Block::new(
     "skylight",
@@ -44,8 +39,8 @@ pub static BLOCK: Block = Block::new(
              over black ground (an albedo of 0, which cannot be set): over bright ground a real sky is some per cent \
              brighter.",
         ),
-        layer("sun_layer", "The number of the sun's `layer_setting`. Of version 1.1."),
-        layer("sky_layer", "The number of the sky's `layer_setting`. Of version 1.1."),
+        Field::index("sun_layer", "The number of the sun's `layer_setting`. Of version 1.1."),
+        Field::index("sky_layer", "The number of the sky's `layer_setting`. Of version 1.1."),
     ],
 )
 .with_later(&[Later::new("uid", "3.0")])

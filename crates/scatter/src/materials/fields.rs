@@ -138,13 +138,10 @@ pub const EMISSION_TEXTURE: Field = Field::new(
 );
 
 /// Whose switch it hangs on.
-pub const LAYER: Field = Field::new(
+pub const LAYER: Field = Field::index(
     "layer",
-    Kind::Int,
-    Presence::Default("0"),
     "Number of the `layer_setting` in `renderer_settings` that its emission is scaled by.",
-)
-.range(Range::AtLeast(0.0));
+);
 
 /// Emission as later versions write it.
 pub const BASE_EMISSION_PARAMETER: Parameter = Parameter {

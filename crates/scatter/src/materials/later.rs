@@ -24,10 +24,6 @@ pub static MAT: Block = Block::new(
 )
 .with_example("<mat><mat_name>white</mat_name><weight>1</weight></mat>");
 
-const fn layer(name: &'static str, doc: &'static str) -> Field {
-    Field::new(name, Kind::Int, Presence::Default("0"), doc).range(Range::AtLeast(0.0))
-}
-
 /// The declaration of `sunsky`.
 pub static SUNSKY: Block = Block::new(
     "sunsky",
@@ -49,8 +45,8 @@ pub static SUNSKY: Block = Block::new(
             "The model of the sky: `original` is `preetham` of `skylight`; `hosek` stands in for `captured-simulation`, with a \
              warning.",
         ),
-        layer("sun_layer", "The number of the sun's `layer_setting`."),
-        layer("sky_layer", "The number of the sky's `layer_setting`."),
+        Field::index("sun_layer", "The number of the sun's `layer_setting`."),
+        Field::index("sky_layer", "The number of the sky's `layer_setting`."),
     ],
 )
 .with_example("<sunsky><sundir>0 0.6 1</sundir><turbidity>2</turbidity><model>original</model></sunsky>");
