@@ -54,7 +54,10 @@ pub static LAYER_SETTING: Block = Block::new(
     "How bright the lights of one `layer` are: the first of these is for layer 0, and so on. Lights that name no layer are of layer 0, \
      and those of a layer that has no setting are as they are. The film keeps the light of each layer apart, of up to 15, so that their \
      brightness may be changed after the render, in the window or here: `--tonemap` and a film that is gone on with take it as it \
-     is then. Each layer takes as much memory as a film without layers.",
+     is then. Each layer takes as much memory as a film without layers. Independent samples choose lamps by how bright these \
+     are in the picture, as the scene has it. Metropolis sampling goes by the light as it is rendered, whatever its layer's \
+     brightness: a layer that is turned down strongly, or off, keeps its share of the samples, which the others lack, and the noise that \
+     comes of them; one that is turned up gets no more. What is meant to be dim for good is better given a lower emission.",
     &[
         Field::new("name", Kind::Text, Presence::Optional, "What the layer is called."),
         Field::new("enabled", Kind::Bool, Presence::Default("true"), "Whether their light is in the picture. What is switched off is rendered all the same, and can be switched on later."),
