@@ -16,6 +16,13 @@ pub struct LightGroup {
     pub layer: Option<u16>,
 }
 
+impl LightGroup {
+    /// What its light is multiplied by in the picture.
+    pub fn shown(&self) -> f64 {
+        if self.is_on { self.gain } else { 0.0 }
+    }
+}
+
 /// How bright the groups of lights are in the picture, in the order of their numbers; none where a film holds all light
 /// together.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -26,7 +33,12 @@ impl LightMix {
     /// are.
     pub fn gain(&self, layer: &str) -> f64 {
         let group = split(layer).1.and_then(|name| self.0.iter().find(|group| group.name == name));
-        group.map_or(1.0, |group| if group.is_on { group.gain } else { 0.0 })
+        group.map_or(1.0, LightGroup::shown)
+    }
+
+    /// Whether the light of any group is in the picture.
+    pub fn shows_any(&self) -> bool {
+        self.0.is_empty() || self.0.iter().any(|group| group.shown() > 0.0)
     }
 }
 
@@ -57,7 +69,9 @@ mod tests {
         let gains =
             |mix: &LightMix| ["camera [lamps]", "camera [sky]", "camera"].map(|layer| mix.gain(layer));
         assert_eq!(gains(&mix), [0.25, 1.0, 1.0]);
+        assert!(mix.shows_any() && LightMix::default().shows_any());
         mix.0[0].is_on = false;
         assert_eq!(gains(&mix), [0.0, 1.0, 1.0]);
+        assert!(!mix.shows_any());
     }
 }

@@ -118,7 +118,7 @@ texts! {
     HALT_SPP = "Samples per pixel";
     HALT_TIME = "Time";
     HALT_ERROR = "Relative error";
-    HALT_ERROR_HINT = "Takes as much memory as two more films";
+    HALT_ERROR_HINT = "Takes as much memory as two more films. Of a picture that is black so far no error is known";
     SECONDS = " s";
     PER_CENT = " %";
     MACHINE = "This machine";

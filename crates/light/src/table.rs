@@ -103,6 +103,12 @@ impl LightTable {
         self.len() == 0
     }
 
+    /// Whether any light comes from them that can be seen.
+    pub fn shine(&self) -> bool {
+        self.lamps.iter().any(|lamp| lamp.flux() > 0.0)
+            || self.environment.as_ref().is_some_and(Environment::shines)
+    }
+
     /// What the light is made of: half of it the lamps', by their flux, and half the environment's.
     pub fn spectrum(&self) -> LightSpectrum {
         let mut spectrum = LightSpectrum::default();

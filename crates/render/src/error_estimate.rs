@@ -11,6 +11,12 @@
 //! leaves as few that count, and noise that no sample has met yet is in no estimate.
 //!
 //! That Markov chains are correlated makes no difference: chains belong to one half as a whole.
+//!
+//! Where all samples were black there is no estimate. Either the picture is black, or the whole of its light is missing,
+//! and the error is 1 at least, as the root of a mean square is no less than the mean. Samples cannot tell: where a part q
+//! of them finds light, N find none with the probability (1 − q)^N, about exp(−q N), which bounds q (below 3 / N, with
+//! 95 % confidence), but not how bright the light is that so few would bring. So the error of a black picture is known, and 0,
+//! only where the scene has no light that could come into it.
 
 use indigo_film::XyzImage;
 
@@ -21,30 +27,44 @@ pub(crate) struct Counts {
     pub all: f64,
 }
 
-/// The estimate; `None` while a half has no sample in some pixel, or where there is no light. The region holds first
-/// and last (excluded) output columns and rows.
-pub(crate) fn relative_error(halves: [&XyzImage; 2], region: [[u32; 2]; 2], counts: Counts) -> Option<f64> {
+/// What is looked at.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Picture {
+    /// First and last (excluded) output columns and rows.
+    pub region: [[u32; 2]; 2],
+    /// Whether it shows coverage, and not luminance.
+    pub is_mask: bool,
+    /// Whether it is known to be black.
+    pub is_dark: bool,
+}
+
+/// The estimate; `None` while a half has no sample in some pixel, or where no light has been found that there may be.
+pub(crate) fn relative_error(halves: [&XyzImage; 2], picture: Picture, counts: Counts) -> Option<f64> {
     let [n_a, n_b] = counts.halves;
     if n_a <= 0.0 || n_b <= 0.0 {
         return None;
     }
-    let [columns, rows] = region;
+    let [columns, rows] = picture.region;
+    let channel = if picture.is_mask { 3 } else { 1 };
     let (mut squares, mut sum, mut pixels) = (0.0, 0.0, 0.0);
     for y in rows[0]..rows[1] {
         for x in columns[0]..columns[1] {
-            let [a, b] = halves.map(|image| luminance(image, x, y));
+            let [a, b] = halves.map(|image| mean(image, channel, x, y));
             let (a, b) = (a?, b?);
             squares += (a - b).powi(2);
             sum += (n_a * a + n_b * b) / (n_a + n_b);
             pixels += 1.0;
         }
     }
+    if picture.is_dark {
+        return Some(0.0);
+    }
     let scale = n_a * n_b / ((n_a + n_b) * counts.all);
     (sum > 0.0).then(|| (squares / pixels * scale).sqrt() / (sum / pixels))
 }
 
-/// Mean luminance of an output pixel's internal pixels; `None` where one has no sample.
-fn luminance(image: &XyzImage, x: u32, y: u32) -> Option<f64> {
+/// The mean of a channel over an output pixel's internal pixels; `None` where one has no sample.
+fn mean(image: &XyzImage, channel: usize, x: u32, y: u32) -> Option<f64> {
     let (size, factor) = (image.size, image.size.super_sample() as usize);
     let width = size.internal_width() as usize;
     let first = y as usize * factor * width + x as usize * factor;
@@ -54,7 +74,7 @@ fn luminance(image: &XyzImage, x: u32, y: u32) -> Option<f64> {
             if image.missing[i] {
                 return None;
             }
-            sum += f64::from(image.pixels[i][1]);
+            sum += f64::from(image.pixels[i][channel]);
         }
     }
     Some(sum / (factor * factor) as f64)
@@ -82,7 +102,7 @@ mod tests {
         let mut noisy = |n: f64| image(size, || 5.0 + normal() / (n / 4.0).sqrt());
         let (a, b) = (noisy(n_a), noisy(n_b));
         let counts = Counts { halves: [n_a, n_b], all };
-        let whole = [[0, 60], [0, 50]];
+        let whole = Picture { region: [[0, 60], [0, 50]], is_mask: false, is_dark: false };
         // Four internal pixels of n/4 samples with deviation 1 make an output pixel's deviation 1/√n.
         let expected = 1.0 / all.sqrt() / 5.0;
         let estimate = relative_error([&a, &b], whole, counts).unwrap();
@@ -91,8 +111,14 @@ mod tests {
         let mut gap = b.clone();
         gap.missing[7] = true;
         assert_eq!(relative_error([&a, &gap], whole, counts), None);
-        assert!(relative_error([&a, &gap], [[0, 60], [1, 50]], counts).is_some());
+        assert!(
+            relative_error([&a, &gap], Picture { region: [[0, 60], [1, 50]], ..whole }, counts).is_some()
+        );
         let black = image(size, || 0.0);
         assert_eq!(relative_error([&black, &black], whole, counts), None);
+        assert_eq!(relative_error([&black, &black], Picture { is_dark: true, ..whole }, counts), Some(0.0));
+        assert_eq!(relative_error([&black, &gap], Picture { is_dark: true, ..whole }, counts), None);
+        // All is covered, whatever the luminance.
+        assert_eq!(relative_error([&a, &b], Picture { is_mask: true, ..whole }, counts), Some(0.0));
     }
 }

@@ -1,6 +1,6 @@
 //! Estimates the error now and then, at little cost beside the rendering itself.
 
-use crate::error_estimate::{Counts, relative_error};
+use crate::error_estimate::{Counts, Picture, relative_error};
 use crate::pool::with_jobs;
 use crate::worker::Shared;
 use indigo_film::{MasterFilm, XyzImage};
@@ -46,9 +46,14 @@ impl ErrorMeter {
         let mix = &shared.scene.picture.lights;
         let images: [XyzImage; 2] = with_jobs(self.threads, || [a.develop(mix), b.develop(mix)]);
         let size = shared.scene.film.size;
-        let region = shared.scene.film.region.unwrap_or([[0, size.width()], [0, size.height()]]);
+        let is_mask = shared.scene.picture.foreground_alpha;
+        let picture = Picture {
+            region: shared.scene.film.region.unwrap_or([[0, size.width()], [0, size.height()]]),
+            is_mask,
+            is_dark: !(is_mask || shared.scene.lights.shine() && mix.shows_any()),
+        };
         let counts = Counts { halves: [taken[1], taken[2]], all: taken.iter().sum() };
-        self.last = relative_error([&images[0], &images[1]], region, counts);
+        self.last = relative_error([&images[0], &images[1]], picture, counts);
         self.last
     }
 }

@@ -21,6 +21,7 @@ pub struct Progress {
     pub fraction: Option<f64>,
     /// The last estimate of the picture's relative error, where [`Halt::relative_error`](crate::Halt::relative_error)
     /// asks for it: the root mean square, over the pixels, of the luminance's error, over the mean luminance.
+    /// None while no light has been found; 0 where the scene has none.
     pub relative_error: Option<f64>,
 }
 

@@ -110,7 +110,7 @@ pub static FLAGS: &[Flag] = &[
         "halterror",
         Some("E"),
         Action::HaltError,
-        "Stop when the picture's relative error is estimated to be E or less: the root mean square of the luminance's error over its mean. 0.01 is hardly visible. The true error is at most 1.2 times the estimate in 95 of 100 runs, if the light is not in a few pixels. It is estimated after a quarter more of the time each, and each second at least. Takes the memory of two more films.",
+        "Stop when the picture's relative error is estimated to be E or less: the root mean square of the luminance's error over its mean. 0.01 is hardly visible. The true error is at most 1.2 times the estimate in 95 of 100 runs, if the light is not in a few pixels. Of a picture that is black so far nothing is known, however many samples it has, and it is gone on with: where that may be, give -halt or -haltspp besides. Without any light in the scene it ends at once. It is estimated after a quarter more of the time each, and each second at least. Takes the memory of two more films.",
     ),
     flag(
         "o",

@@ -1,10 +1,10 @@
 //! Counting, halting, pausing and failing.
 
-use super::common::scene_with;
-use super::common::text::{background, flat_camera, scene_file, settings, uniform};
+use super::common::text::{background, flat_camera, grey, scene_file, settings, sphere, uniform};
+use super::common::{scene, scene_with};
 use super::{PATIENCE, finish, options, room, run, small_scene};
 use indigo_imaging::{LinearImage, Metadata, exr};
-use indigo_render::{Event, Halt, HaltReason, Options, Session};
+use indigo_render::{Event, Halt, HaltReason, Options, Progress, Session};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -66,6 +66,44 @@ fn an_error_is_looked_for_soon() {
     let (_, reason, progress) = run(&small_scene(1, ""), &options);
     assert_eq!(reason, HaltReason::Error);
     assert!(progress.relative_error.is_some_and(|error| error <= 0.5));
+}
+
+/// How a render of a black ball in some light ends that halts at an error; the ball is round the camera, and then there are as
+/// many as 200 samples per pixel, or before it.
+fn halted(more: &str, light: &str, is_around: bool) -> (HaltReason, Progress) {
+    let ball = sphere([0.0, if is_around { 0.0 } else { 4.0 }, 0.0], 1.0, "black");
+    let camera = flat_camera([0.0; 3], [0.0, 1.0, 0.0], 0.5);
+    let parts = [settings(12, more), camera, grey("black", 0.0), ball, light.to_owned()];
+    let halt = Halt { relative_error: Some(0.5), samples_per_pixel: is_around.then_some(200), time: None };
+    let options = Options { halt, deterministic: false, ..options(1, 0) };
+    let (_, reason, progress) = run(&Arc::new(scene(&scene_file(&parts))), &options);
+    (reason, progress)
+}
+
+/// Nothing is known of the light in a black picture unless there is none.
+#[test]
+fn a_black_picture_has_no_known_error_unless_the_scene_is_dark() {
+    let even = background(&uniform(1e3));
+    let off = "<layer_setting><enabled>false</enabled></layer_setting>";
+    for mode in
+        ["", "<metropolis>true</metropolis>", "<bidirectional>true</bidirectional><hybrid>true</hybrid>"]
+    {
+        let (reason, progress) = halted(mode, &even, true);
+        assert_eq!((reason, progress.relative_error), (HaltReason::Samples, None), "{mode}");
+        let black = background(&uniform(0.0));
+        for (more, light) in
+            [(mode.to_owned(), ""), (mode.to_owned(), &*black), (format!("{mode}{off}"), &*even)]
+        {
+            let (reason, progress) = halted(&more, light, false);
+            assert_eq!((reason, progress.relative_error), (HaltReason::Error, Some(0.0)), "{more}{light}");
+        }
+        // Where something is lit the error is estimated as ever.
+        let (reason, progress) = halted(mode, &even, false);
+        assert!(reason == HaltReason::Error && progress.relative_error > Some(0.0), "{mode}: {progress:?}");
+    }
+    // A mask shows coverage, of which an edge has noise, light or not.
+    let (reason, progress) = halted("<render_foreground_alpha>true</render_foreground_alpha>", "", false);
+    assert!(reason == HaltReason::Error && progress.relative_error > Some(0.0), "{progress:?}");
 }
 
 /// No machine has so many threads, and no driver so much to do at once; it must neither fail nor take long.

@@ -161,10 +161,9 @@ impl Lights {
 /// picture, as the scene has it, but for a hundredth at least, since they may be turned up later.
 fn attention(mix: &LightMix, group: u16) -> f64 {
     const LEAST: f64 = 0.01;
-    let gain = |group: &LightGroup| if group.is_on { group.gain } else { 0.0 };
-    let most = mix.0.iter().map(gain).fold(0.0, f64::max);
+    let most = mix.0.iter().map(LightGroup::shown).fold(0.0, f64::max);
     let Some(own) = mix.0.get(usize::from(group)).filter(|_| most > 0.0) else { return 1.0 };
-    (gain(own) / most).max(LEAST)
+    (own.shown() / most).max(LEAST)
 }
 
 /// A horizontal rectangle round the origin whose front looks down.
