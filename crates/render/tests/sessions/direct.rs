@@ -1,7 +1,10 @@
 //! Direct and indirect light, kept apart by every mode.
 
-use super::common::judge::assert_same;
-use super::common::text::{camera, flat_camera, grey, scene_file, settings, sphere, uniform};
+use super::common::judge::{NITS_PER_UNIFORM, assert_agrees, assert_same};
+use super::common::shapes::{Mesh, mesh_light};
+use super::common::text::{
+    ONE_PIXEL, camera, flat_camera, grey, null, scene_file, settings, sphere, uniform,
+};
 use super::common::{film, scene};
 use indigo_film::XyzImage;
 use indigo_scene::Scene;
@@ -100,5 +103,48 @@ fn surroundings_that_light_paths_find_are_background() {
         assert!(background > 1e3 * rest, "{modes}: {background} {rest}");
         let splats = film.develop_layers(|layer| is_background(layer) && layer != "camera background");
         assert!(luminance(&splats) > 0.1 * background, "{modes}: light paths find the sun");
+    }
+}
+
+/// A lamp that is not to be seen, over a third of an even sky: what it sends is its own light and no background, whatever comes
+/// through from behind; groups of lights make no difference.
+#[test]
+fn what_unseen_surfaces_send_is_not_background() {
+    let [sky, lamp] = [1e4, 3e4];
+    let square = Mesh::square(0.3, 0.0).text("square", "air");
+    let shining = mesh_light("square", &uniform(lamp), [0.0; 3], 1.0, "");
+    let even = format!(
+        "<background_settings><background_material><material><name>sky</name><diffuse><base_emission>{}</base_emission>\
+         <layer>1</layer></diffuse></material></background_material></background_settings>",
+        uniform(sky)
+    );
+    for modes in [
+        "",
+        "<bidirectional>true</bidirectional>",
+        "<metropolis>true</metropolis>",
+        "<bidirectional>true</bidirectional><metropolis>true</metropolis>",
+        "<bidirectional>true</bidirectional><hybrid>true</hybrid>",
+    ] {
+        for layers in ["", "<layer_setting/><layer_setting/>"] {
+            let more = format!("{ONE_PIXEL}<save_layers_exr>true</save_layers_exr>{modes}{layers}");
+            let scene = scene(&scene_file(&[
+                settings(SIDE, &more),
+                // Half a metre is seen on each side.
+                flat_camera([0.0, 0.0, 5.0], [0.0, 0.0, -1.0], 0.1),
+                null("air"),
+                square.clone(),
+                shining.clone(),
+                even.clone(),
+            ]));
+            let films: Vec<_> = (0..8).map(|seed| film(&scene, seed, 64)).collect();
+            let mean = |part: fn(&str) -> bool| {
+                Moments::of(films.iter().map(|film| luminance(&film.develop_layers(part))))
+            };
+            let what = format!("{modes}{layers}");
+            assert_agrees(&format!("background, {what}"), &mean(is_background), sky * NITS_PER_UNIFORM);
+            let share = (0.3_f64 / 0.5).powi(2);
+            let rest = mean(|layer| !is_background(layer));
+            assert_agrees(&format!("the rest, {what}"), &rest, share * lamp * NITS_PER_UNIFORM);
+        }
     }
 }

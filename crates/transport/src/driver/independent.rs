@@ -170,24 +170,11 @@ impl Independent {
     #[inline]
     fn add(&self, sample: &Sample, tracer: &Tracer, delta: &mut FilmDelta) {
         let Sample { pixel: [x, y], on_film, found, alpha } = sample;
-        let (layers, path) = (self.layers, &found.path);
-        // What leaves the scene has met nothing.
-        let (direct, background) = if path.alpha == 0.0 && layers.background != layers.direct {
-            (SampledSpectrum::ZERO, path.direct)
-        } else {
-            (path.direct, SampledSpectrum::ZERO)
-        };
-        let mut add = |layer, light, alpha| {
+        let layers = self.layers;
+        for (layer, light) in layers.shares(&found.path) {
+            // What all layers together cover is told in one.
+            let alpha = if layer == layers.direct { *alpha } else { 0.0 };
             delta.add_sample(layer, *x, *y, found.sensor.xyz(&(light * on_film.weight)), alpha);
-        };
-        if layers.indirect == layers.direct {
-            add(layers.direct, direct + path.indirect, *alpha);
-        } else {
-            add(layers.direct, direct, *alpha);
-            add(layers.indirect, path.indirect, 0.0);
-        }
-        if layers.background != layers.direct {
-            add(layers.background, background, 0.0);
         }
         self.count_light_path(delta);
         for splat in tracer.splats() {

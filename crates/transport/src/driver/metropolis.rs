@@ -238,15 +238,8 @@ impl Run<'_> {
             return state.refused;
         }
         let found = self.tracer.trace(self.scene, &mut numbers, position, driver.events, record);
-        let mut add = |light, layer| state.add(film, found.sensor.xyz(&(light * region.share())), layer);
-        if found.path.alpha == 0.0 {
-            // What leaves the scene has met nothing.
-            add(found.path.radiance(), layers.background);
-        } else if layers.direct == layers.indirect {
-            add(found.path.radiance(), layers.direct);
-        } else {
-            add(found.path.direct, layers.direct);
-            add(found.path.indirect, layers.indirect);
+        for (layer, light) in layers.shares(&found.path) {
+            state.add(film, found.sensor.xyz(&(light * region.share())), layer);
         }
         for splat in self.tracer.splats().iter().filter(|splat| region.holds(splat.position)) {
             let xyz = found.sensor.xyz(&splat.radiance);

@@ -7,10 +7,11 @@ mod region;
 mod seeds;
 mod shares;
 
-use crate::technique::{DIRECT, Events, Part, Record, Tracer};
+use crate::technique::{DIRECT, Events, Part, PathSample, Record, Tracer};
 use independent::Independent;
 use indigo_film::{FilmDelta, LayerKind, LightMix, mix};
 use indigo_scene::Scene;
+use indigo_spectrum::SampledSpectrum;
 use metropolis::{CHAINS, MUTATIONS, Metropolis};
 use region::Region;
 
@@ -89,6 +90,21 @@ impl Layers {
     /// That of a part of a group's light.
     fn of_group(self, part: Part, group: u16) -> usize {
         self.of(part) + usize::from(group) * self.per_group
+    }
+
+    /// A camera ray's light by the layers that differ, each once, that of direct light first.
+    fn shares(self, path: &PathSample) -> impl Iterator<Item = (usize, SampledSpectrum)> {
+        let Self { direct, indirect, background, .. } = self;
+        let mut rest = path.direct;
+        let mut apart = |layer, light| {
+            if layer == direct {
+                rest += light;
+                return None;
+            }
+            Some((layer, light))
+        };
+        let others = [apart(background, path.background), apart(indirect, path.indirect)];
+        std::iter::once((direct, rest)).chain(others.into_iter().flatten())
     }
 
     /// Whether the light of some lights is kept apart from that of others.

@@ -42,7 +42,9 @@ impl Events {
 /// Light that arrives along a camera ray.
 #[derive(Clone, Copy, Debug)]
 pub struct PathSample {
-    /// Radiance, W m^-3 sr^-1, as it counts on the film, that was scattered at most once.
+    /// Radiance, W m^-3 sr^-1, as it counts on the film, straight from the surroundings.
+    pub background: SampledSpectrum,
+    /// The same of other light that was scattered at most once.
     pub direct: SampledSpectrum,
     /// The same of what was scattered more often.
     pub indirect: SampledSpectrum,
@@ -54,7 +56,7 @@ impl PathSample {
     /// All of it.
     #[inline]
     pub fn radiance(&self) -> SampledSpectrum {
-        self.direct + self.indirect
+        self.direct + self.background + self.indirect
     }
 }
 

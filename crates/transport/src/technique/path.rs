@@ -181,6 +181,7 @@ fn trace(
     let ray = world.ray(camera.origin, camera.direction);
     let mut flight = Flight::new(&Point::free(ray.o), ray, scene.camera_media_along(&ray));
     let mut alpha = 0.0;
+    let mut background = SampledSpectrum::ZERO;
     let mut direct = None;
     let mut depth = 0;
     let mut number = 0;
@@ -193,11 +194,16 @@ fn trace(
             }
         });
         let Some((vertex, u)) = arrival else {
+            // That of surfaces which are not to be seen, met before, is kept apart.
+            let met = (depth == 0).then(|| std::mem::replace(&mut path.radiance, SampledSpectrum::ZERO));
             if events.holds(depth)
                 && let Some((value, weight)) = add_environment(world, &mut path, &flight)
             {
                 let sender = Sender::Environment(flight.ray.d);
                 record.contribution((0, depth + 2), None, value * camera.importance, weight, sender);
+            }
+            if let Some(met) = met {
+                background = std::mem::replace(&mut path.radiance, met);
             }
             break;
         };
@@ -240,7 +246,9 @@ fn trace(
     }
     let (direct, indirect) =
         direct.map_or((path.radiance, SampledSpectrum::ZERO), |direct| (direct, path.radiance));
-    PathSample { direct: direct * camera.importance, indirect: indirect * camera.importance, alpha }
+    let [background, direct, indirect] =
+        [background, direct, indirect].map(|light| light * camera.importance);
+    PathSample { background, direct, indirect, alpha }
 }
 
 /// A contribution as if there were no other strategy, and its weight.

@@ -121,6 +121,7 @@ fn trace_camera(
 ) -> PathSample {
     let Sample { world, camera, events } = sample;
     let scene = world.scene;
+    let mut background = SampledSpectrum::ZERO;
     // Direct and indirect.
     let mut radiance = [SampledSpectrum::ZERO; 2];
     let kind = |events: u32| usize::from(events > DIRECT);
@@ -144,7 +145,8 @@ fn trace_camera(
         let arrived = Arrived { step: &step, from: &from, beta, passage: &flight.passage, depth };
         let Some((vertex, u)) = arrival else {
             if events.holds(depth) {
-                radiance[kind(depth)] += meet_environment(sample, &arrived, flight.ray.d, record);
+                let met = if depth == 0 { &mut background } else { &mut radiance[kind(depth)] };
+                *met += meet_environment(sample, &arrived, flight.ray.d, record);
             }
             break;
         };
@@ -187,5 +189,5 @@ fn trace_camera(
         number += 1;
     }
     let [direct, indirect] = radiance;
-    PathSample { direct, indirect, alpha }
+    PathSample { background, direct, indirect, alpha }
 }
