@@ -7,10 +7,12 @@ mod rooms;
 mod roster;
 mod serve;
 mod service;
+mod slave;
 mod status;
 mod uploads;
 
-pub use roster::{Presence, Unsent};
+pub use roster::Unsent;
+pub use slave::Presence;
 pub use status::{OwnStatus, SlaveStatus, Status};
 
 use crate::discovery::Announcement;

@@ -1,7 +1,7 @@
 //! What slaves tell of themselves: believed as far as it can be so.
 
 use super::Shared;
-use super::roster::{Presence, SlaveId};
+use super::slave::{Presence, SlaveId};
 use crate::limits::FASTEST;
 use crate::proto::ReportRequest;
 use crate::proto::report_request::State;

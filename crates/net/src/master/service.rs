@@ -3,7 +3,8 @@
 use super::Shared;
 use super::listen::Peer;
 use super::reports::{Report, note};
-use super::roster::{Introduction, SlaveId, Unwelcome};
+use super::roster::{Introduction, Unwelcome};
+use super::slave::SlaveId;
 use super::uploads::{Bounds, gather, next};
 use crate::event::Event;
 use crate::ledger::{Receipt, Refusal, run_of};

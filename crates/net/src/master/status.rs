@@ -1,6 +1,6 @@
 //! How things stand, as plain data.
 
-use super::roster::Presence;
+use super::slave::Presence;
 use super::{Shared, lock};
 use std::net::SocketAddr;
 use std::sync::atomic::Ordering;
