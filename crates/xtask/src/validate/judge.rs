@@ -112,7 +112,7 @@ impl Judge<'_> {
         let (comparison, allowance) = compared(&measured, &expected, uncertainty, is_bound);
         // What is granted is not noticed.
         let noise = quantile(self.threshold, comparison.freedom) * comparison.error;
-        Verdict {
+        let verdict = Verdict {
             renderer,
             what: row.what.clone(),
             expected,
@@ -125,7 +125,10 @@ impl Judge<'_> {
             threshold: self.threshold,
             failure: None,
         }
-        .failing()
+        .failing();
+        // Renderers that agree on nothing at all have shown nothing.
+        let is_dark = matches!(row.target, Target::First(_)) && !shines(&verdict.expected, self.threshold);
+        Verdict { failure: verdict.failure.or(is_dark.then_some("no light")), ..verdict }
     }
 
     /// Each block of a picture that should have one value everywhere.
@@ -210,6 +213,12 @@ impl Judge<'_> {
 /// A share is of this: the value, or where that is 0 what one is in the picture's unit.
 fn scale(expected: &Estimate, unit: f64) -> f64 {
     if expected.mean == 0.0 { unit } else { expected.mean.abs() }
+}
+
+/// Whether an estimate is above 0 beyond its noise.
+fn shines(estimate: &Estimate, threshold: f64) -> bool {
+    let freedom = estimate.count.max(2) - 1;
+    estimate.mean > quantile(threshold, freedom as f64) * estimate.error
 }
 
 /// How surprising a number is beside another, and what was granted.

@@ -191,6 +191,24 @@ mod tests {
         assert_eq!(fails(2.0, f64::NAN), 3, "and the pixels");
     }
 
+    /// A surface that lets nothing through makes pictures that agree, and agree with no light.
+    #[test]
+    fn black_pictures_fail_though_they_agree() {
+        let scene = text::scene_file(&[text::settings(8, "")]);
+        let check = Check::new("g", "n", "", scene).by(check::TECHNIQUES);
+        let check = check.row("picture", check::Quantity::Y, None, check::Target::First(0.0));
+        let failures = |value: f64| {
+            let verdicts = verdicts(&check, &[pictures(value), pictures(value)]);
+            verdicts.into_iter().filter_map(|verdict| verdict.failure).collect::<Vec<_>>()
+        };
+        assert_eq!(failures(0.0), ["no light"]);
+        assert!(failures(2.0).is_empty());
+        let noise =
+            |seed: usize| Picture { size: [1, 1], pixels: vec![[f64::from(seed as u32 % 2) - 0.4; 3]] };
+        let noisy: Vec<_> = (0..16).map(noise).collect();
+        assert!(verdicts(&check, &[noisy.clone(), noisy])[0].failure.is_some());
+    }
+
     #[test]
     fn a_picture_that_must_be_even_fails_where_it_is_not() {
         let scene = text::scene_file(&[text::settings(8, "")]);

@@ -3,6 +3,7 @@
 mod colour;
 mod direct;
 mod dispersion;
+mod frosted;
 mod furnaces;
 mod glass;
 mod gloss;
@@ -39,6 +40,7 @@ pub fn all() -> Vec<Check> {
         direct::checks(),
         lamps::checks(),
         glass::checks(),
+        frosted::checks(),
         dispersion::checks(),
         gloss::checks(),
         metal::checks(),
