@@ -28,7 +28,7 @@ use std::time::Instant;
 use check::{Check, Form};
 use console::{Console, Rendered};
 use judge::{FAMILY, Judge, threshold};
-use report::{Checked, Report};
+use report::{Checked, LeftOut, Report};
 
 use crate::{Outcome, process, venv};
 
@@ -71,11 +71,17 @@ impl Options {
         Ok(Self { jobs: options.jobs.max(1), ..options })
     }
 
-    fn wants(&self, check: &Check) -> bool {
-        let is_named = self.only.as_ref().is_none_or(|only| {
+    /// Why a check is left out, if it is.
+    fn leaves_out(&self, check: &Check) -> Option<String> {
+        let is_named = |only: &String| {
             check.group.to_lowercase().contains(only) || check.name.to_lowercase().contains(only)
-        });
-        is_named && (self.form == Form::Full || !check.full_only) && (self.mitsuba || check.mitsuba.is_none())
+        };
+        match &self.only {
+            Some(only) if !is_named(only) => Some(format!("not named “{only}” (--only)")),
+            _ if check.full_only && self.form != Form::Full => Some("of the full form alone".to_owned()),
+            _ if check.mitsuba.is_some() && !self.mitsuba => Some("beside Mitsuba (--no-mitsuba)".to_owned()),
+            _ => None,
+        }
     }
 }
 
@@ -87,7 +93,8 @@ pub fn run(arguments: &[String]) -> Outcome {
     let options = Options::parse(arguments)?;
     let start = Instant::now();
     let all = [oracles::all(), agreement::all(), cross::all()].concat();
-    let checks: Vec<Check> = all.into_iter().filter(|check| options.wants(check)).collect();
+    let left_out = LeftOut::count(all.iter().filter_map(|check| options.leaves_out(check)));
+    let checks: Vec<Check> = all.into_iter().filter(|check| options.leaves_out(check).is_none()).collect();
     if checks.is_empty() {
         return Err("no check has that name".into());
     }
@@ -109,13 +116,11 @@ pub fn run(arguments: &[String]) -> Outcome {
         seconds: start.elapsed().as_secs_f64(),
         form,
         family: FAMILY,
+        left_out,
         version: version(&console, options.console.is_some()),
     };
     report.write(&options.out)?;
     report.say();
-    if !options.mitsuba {
-        println!("left out: the scenes beside Mitsuba (--no-mitsuba)");
-    }
     match (report.failures().count(), report.broken().count()) {
         (0, 0) => Ok(()),
         (failed, broken) => Err(format!(
@@ -189,6 +194,23 @@ mod tests {
         assert_eq!(fails(2.0, 2.0), 0);
         assert_eq!(fails(2.01, 2.0), 2, "the value, and the pictures beside each other");
         assert_eq!(fails(2.0, f64::NAN), 3, "and the pixels");
+    }
+
+    #[test]
+    fn what_is_left_out_is_counted_by_its_reason() {
+        let words = |list: &[&str]| list.iter().map(|word| (*word).to_owned()).collect::<Vec<_>>();
+        let options = Options::parse(&words(&["--no-mitsuba", "--only", "glass"])).expect("it is right");
+        let all = [oracles::all(), agreement::all(), cross::all()].concat();
+        let out = LeftOut::count(all.iter().filter_map(|check| options.leaves_out(check)));
+        let kept = all.iter().filter(|check| options.leaves_out(check).is_none()).count();
+        assert_eq!(out.checks() + kept, all.len());
+        let text = out.words(kept);
+        assert!(text.starts_with(&format!("{kept} of {} checks; left out: ", all.len())), "{text}");
+        assert!(
+            text.contains("--only") && text.contains("full form") && text.contains("--no-mitsuba"),
+            "{text}"
+        );
+        assert_eq!(LeftOut::default().words(3), "all 3 checks");
     }
 
     /// A surface that lets nothing through makes pictures that agree, and agree with no light.

@@ -34,7 +34,7 @@ pub fn page(report: &Report) -> String {
 fn head(report: &Report) -> String {
     let (count, failed) = (report.verdicts().count(), report.failures().count());
     let said = match (failed, report.broken().count()) {
-        (0, 0) => format!("<span class=\"verdict pass\">all {count} comparisons pass</span>"),
+        (0, 0) => format!("<span class=\"verdict pass\">all {count} comparisons of these checks pass</span>"),
         (_, 0) => format!("<span class=\"verdict fail\">{failed} of {count} comparisons fail</span>"),
         (_, broken) => format!(
             "<span class=\"verdict fail\">{failed} of {count} comparisons fail, {broken} checks were not rendered</span>"
@@ -47,7 +47,7 @@ fn head(report: &Report) -> String {
         Form::Full => "This is the full form.",
     };
     format!(
-        "<h1>Do the pictures come out true?</h1><p class=\"lead\">{said}</p>\
+        "<h1>Do the pictures come out true?</h1><p class=\"lead\">{} {said}</p>\
          <p>Each picture was rendered {} times with independent random numbers; numbers are means, and intervals hold 95 % of them \
          by Student’s t. A comparison fails when its deviation is so unlikely that a right renderer would fail anywhere in this report \
          with a probability of {} (Šidák), or when noise hides deviations that it must show (it is unresolved): the band in each drawing is what \
@@ -55,6 +55,7 @@ fn head(report: &Report) -> String {
          <p>Beside a picture is its difference from the value it must have, or from the first picture, in standard errors of each pixel: \
          <span class=\"key\"></span> −{DEEPEST} to +{DEEPEST}; pixels that hold no numbers are magenta.</p>\
          <p class=\"soft\">{} · {} · {} · {:.0} s · <code>{}</code></p>",
+        escaped(&sentence_case(&report.extent())),
         report.form.seeds(),
         report.family,
         escaped(&report.version),
@@ -244,6 +245,13 @@ fn probability(p: f64) -> String {
 
 fn anchor(name: &str) -> String {
     name.to_lowercase().replace(' ', "-")
+}
+
+/// As a sentence: a capital, and a full stop.
+fn sentence_case(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().map(|letter| letter.to_uppercase().to_string());
+    first.unwrap_or_default() + letters.as_str() + "."
 }
 
 fn escaped(text: &str) -> String {

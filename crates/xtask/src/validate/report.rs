@@ -38,8 +38,42 @@ pub struct Report {
     pub form: Form,
     /// Probability of any false alarm.
     pub family: f64,
+    /// What else there is.
+    pub left_out: LeftOut,
     /// Of the console.
     pub version: String,
+}
+
+/// How many checks were left out, by the reason.
+#[derive(Debug, Default)]
+pub struct LeftOut(Vec<(String, usize)>);
+
+impl LeftOut {
+    /// Of a reason for each check.
+    pub fn count(reasons: impl Iterator<Item = String>) -> Self {
+        let mut counts: Vec<(String, usize)> = vec![];
+        for reason in reasons {
+            match counts.iter_mut().find(|(known, _)| *known == reason) {
+                Some((_, count)) => *count += 1,
+                None => counts.push((reason, 1)),
+            }
+        }
+        Self(counts)
+    }
+
+    /// All of them.
+    pub fn checks(&self) -> usize {
+        self.0.iter().map(|(_, count)| count).sum()
+    }
+
+    /// What part of it all so many checks are: a part must not pass for the whole.
+    pub fn words(&self, rendered: usize) -> String {
+        if self.0.is_empty() {
+            return format!("all {rendered} checks");
+        }
+        let reasons: Vec<String> = self.0.iter().map(|(reason, count)| format!("{count} {reason}")).collect();
+        format!("{rendered} of {} checks; left out: {}", rendered + self.checks(), reasons.join(", "))
+    }
 }
 
 impl Checked {
@@ -78,6 +112,11 @@ impl Report {
         groups
     }
 
+    /// What part of all checks it tells of.
+    pub fn extent(&self) -> String {
+        self.left_out.words(self.checked.len())
+    }
+
     /// Writes `report.html` and `report.json` into a folder.
     pub fn write(&self, folder: &Path) -> Result<(), String> {
         let write = |name: &str, text: String| {
@@ -104,6 +143,7 @@ impl Report {
             let least = verdicts.iter().map(|verdict| verdict.comparison.p).fold(1.0, f64::min);
             println!("{name:<28} {:>4} comparisons, {failed:>3} failed, least p {least:.1e}", verdicts.len());
         }
+        println!("{}", self.extent());
         println!("{:.0} s", self.seconds);
     }
 
@@ -150,6 +190,8 @@ impl Report {
             "seconds": self.seconds,
             "renders": self.form.seeds(),
             "family_false_alarm": self.family,
+            "extent": self.extent(),
+            "checks_left_out": self.left_out.checks(),
             "comparisons": self.verdicts().count(),
             "failures": self.failures().count(),
             "checks_not_rendered": self.broken().count(),
