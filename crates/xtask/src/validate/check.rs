@@ -13,10 +13,12 @@ pub enum Renderer {
     PathMetropolis,
     /// Metropolis sampling of bidirectional path tracing.
     Metropolis,
-    /// Direct light by samples of its own, the rest by Metropolis sampling.
+    /// Direct light by samples of its own, and the rest by Metropolis sampling, of bidirectional path tracing.
     Hybrid,
     /// Mitsuba 3, of its own description of the scene.
     Mitsuba,
+    /// Direct light by samples of its own, and the rest by Metropolis sampling, of paths alone.
+    PathHybrid,
 }
 
 /// Path tracing alone.
@@ -31,6 +33,7 @@ pub const ALL: &[Renderer] = &[
     Renderer::Bidirectional,
     Renderer::PathMetropolis,
     Renderer::Metropolis,
+    Renderer::PathHybrid,
     Renderer::Hybrid,
 ];
 
@@ -42,6 +45,7 @@ impl Renderer {
             Self::Bidirectional => "bidirectional",
             Self::PathMetropolis => "path, Metropolis",
             Self::Metropolis => "bidirectional, Metropolis",
+            Self::PathHybrid => "path, hybrid",
             Self::Hybrid => "bidirectional, hybrid",
             Self::Mitsuba => "Mitsuba 3",
         }
@@ -54,6 +58,7 @@ impl Renderer {
             Self::Bidirectional => (true, false, false),
             Self::PathMetropolis => (false, true, false),
             Self::Metropolis => (true, true, false),
+            Self::PathHybrid => (false, true, true),
             Self::Hybrid => (true, true, true),
         };
         // That chains are cut short after many rejections is a bias, if a tiny one.
@@ -111,6 +116,8 @@ pub struct Demand {
     pub samples: u32,
     /// A deviation of this share of a number must be seen, or the number is unresolved, which fails.
     pub resolution: f64,
+    /// A deviation of this share of its value must be seen in half of the blocks where blocks are compared.
+    pub blocks: f64,
 }
 
 /// How much of it all is rendered.
@@ -167,8 +174,6 @@ pub struct Check {
     pub quick: Demand,
     /// What the full form does.
     pub full: Demand,
-    /// A deviation of this share of its value must be seen in half of the blocks where blocks are compared.
-    pub blocks: f64,
     /// Whether each part of the picture should have the value of the first row.
     pub is_flat: bool,
     /// Rendered in the full run only.
@@ -194,9 +199,8 @@ impl Check {
             renderers: THREE.to_vec(),
             rows: vec![],
             longer: vec![],
-            quick: Demand { samples: 256, resolution: 5e-3 },
-            full: Demand { samples: 256, resolution: 5e-3 },
-            blocks: 0.2,
+            quick: Demand { samples: 256, resolution: 5e-3, blocks: 0.2 },
+            full: Demand { samples: 256, resolution: 5e-3, blocks: 0.2 },
             is_flat: false,
             full_only: false,
         }
@@ -230,8 +234,8 @@ impl Check {
     /// With so many samples per pixel, of which a deviation of a share must be seen.
     #[must_use]
     pub fn effort(self, samples: u32, resolution: f64) -> Self {
-        let demand = Demand { samples, resolution };
-        Self { quick: demand, full: demand, ..self }
+        let of = |demand: Demand| Demand { samples, resolution, ..demand };
+        Self { quick: of(self.quick), full: of(self.full), ..self }
     }
 
     /// With so many times the samples for one of those who render it.
@@ -250,7 +254,14 @@ impl Check {
     /// With other samples and another demand in the full form.
     #[must_use]
     pub fn in_full(self, samples: u32, resolution: f64) -> Self {
-        Self { full: Demand { samples, resolution }, ..self }
+        Self { full: Demand { samples, resolution, ..self.full }, ..self }
+    }
+
+    /// With shares that must be seen in half of the blocks, in the quick form and in the full one.
+    #[must_use]
+    pub fn blocks(mut self, quick: f64, full: f64) -> Self {
+        (self.quick.blocks, self.full.blocks) = (quick, full);
+        self
     }
 
     /// With the same value everywhere in the picture.

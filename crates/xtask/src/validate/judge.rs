@@ -182,7 +182,7 @@ impl Judge<'_> {
             comparison,
             allowance,
             resolution: errors[tests / 2] * quantile(sidak(self.threshold, tests), comparison.freedom),
-            demand: self.check.blocks,
+            demand: self.demand.blocks,
             threshold: self.threshold,
             failure: None,
         }

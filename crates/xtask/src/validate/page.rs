@@ -119,7 +119,7 @@ fn article(checked: &Checked) -> String {
         "<p class=\"soft\">{} samples a pixel in each render{longer}; must show {} %, in blocks {} %.</p>",
         checked.demand.samples,
         two_digits(100.0 * checked.demand.resolution),
-        two_digits(100.0 * check.blocks)
+        two_digits(100.0 * checked.demand.blocks)
     );
     text += &pictures(checked);
     text += "<div class=\"scroll\"><table><tr><th>Rendered by</th><th></th><th class=\"number\">Must be</th><th class=\"number\">Is</th>\
