@@ -90,8 +90,8 @@ pub fn write_scene(
     let write = |path: &Path, bytes: &[u8]| {
         std::fs::write(path, bytes).map_err(|error| format!("{}: {error}", path.display()))
     };
-    if !scene.contains(TECHNIQUE) {
-        return Err("the scene has no settings".into());
+    if scene.matches(TECHNIQUE).count() != 1 {
+        return Err("the scene's settings are not as they are written here".into());
     }
     std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     for (name, bytes) in files {

@@ -3,6 +3,7 @@
 //! Nothing of the renderer is linked: scenes are files, pictures are what the release console writes.
 
 pub mod agreement;
+pub mod change;
 pub mod check;
 pub mod console;
 pub mod cross;

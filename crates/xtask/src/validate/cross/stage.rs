@@ -5,6 +5,7 @@ use std::f64::consts::{PI, TAU};
 
 use serde_json::{Value, json};
 
+use super::super::change::with_lens;
 use super::super::hung;
 use super::super::oracles::{AROUND, NITS_PER_UNIFORM, constant_nk};
 use super::super::shapes::{Mesh, Point, dot, mesh_light, model, sub};
@@ -281,9 +282,7 @@ impl Stage {
         let view = &self.view;
         let mut camera = flat_camera(view.eye, sub(view.target, view.eye), view.tangent);
         if let Some([radius, focus]) = view.lens {
-            camera = camera
-                .replace("<aperture_radius>1e-5<", &format!("<aperture_radius>{radius}<"))
-                .replace("<focus_distance>1<", &format!("<focus_distance>{focus}<"));
+            camera = with_lens(&camera, radius, focus);
         }
         let mut parts = vec![settings(SIDE, ONE_PIXEL), camera];
         if self.around > 0.0 {

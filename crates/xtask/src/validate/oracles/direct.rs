@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use super::super::change::changed;
 use super::super::check::{Check, TECHNIQUES, THREE};
 use super::super::shapes::{Mesh, Point, mesh_light, model, sub};
 use super::super::text::{background, grey, uniform};
@@ -115,7 +116,7 @@ pub fn checks() -> Vec<Check> {
     checks.push(
         floor("ball of 512 triangles", about, &lamp, [0.0; 3], under(placed, radiance)).effort(1024, 1e-2),
     );
-    let both = manual_lamp() + &manual_lamp().replace("0 0 1.9", "1 1 1.9");
+    let both = manual_lamp() + &changed(&manual_lamp(), "0 0 1.9", "1 1 1.9");
     let about = "Light adds up: 153.7376 lx + 63.9058 lx.";
     let under_both = |p: Point| under_manual()(p) + under_manual()(sub(p, [1.0, 1.0, 0.0]));
     checks.push(floor("two lamps", about, &both, [1.0, 1.0, 0.0], under_both).by(TECHNIQUES));

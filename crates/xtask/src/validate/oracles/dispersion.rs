@@ -1,5 +1,6 @@
 //! Dispersion by Cauchy's equation, n = A + B/λ².
 
+use super::super::change::changed;
 use super::super::check::{Check, PATH};
 use super::super::shapes::{Mesh, Point, add, dot, mesh_light, model, sub, unit};
 use super::super::text::{background, grey, medium, specular};
@@ -20,7 +21,7 @@ fn glass(transparent: bool) -> String {
     let (a, b) = INDEX;
     let kind = format!("<basic><ior>{a}</ior><cauchy_b_coeff>{b}</cauchy_b_coeff></basic>");
     let surface = specular("m", "g");
-    let surface = if transparent { surface } else { surface.replace(">true</tr", ">false</tr") };
+    let surface = if transparent { surface } else { changed(&surface, ">true</tr", ">false</tr") };
     medium("g", 10, &kind) + &surface
 }
 

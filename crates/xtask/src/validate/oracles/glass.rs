@@ -1,5 +1,6 @@
 //! Fresnel, Beer and Lambert, and plates.
 
+use super::super::change::changed;
 use super::super::check::{Check, PATH, TECHNIQUES, THREE};
 use super::super::shapes::{Mesh, model};
 use super::super::text::{background, basic, medium, specular, sphere, uniform};
@@ -29,7 +30,7 @@ pub fn checks() -> Vec<Check> {
 
 /// Glass that lets nothing through shows Fresnel's reflectance.
 fn mirrors() -> Vec<Check> {
-    let opaque = absorbing(1.5, 0.0).replace("<transparent>true", "<transparent>false");
+    let opaque = changed(&absorbing(1.5, 0.0), "<transparent>true", "<transparent>false");
     let mut checks = vec![];
     for degrees in [0.0f64, 45.0, 60.0, 75.0, 85.0] {
         let (s, c) = degrees.to_radians().sin_cos();

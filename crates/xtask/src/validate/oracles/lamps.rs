@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use super::super::change::changed;
 use super::super::check::{Check, PATH, TECHNIQUES};
 use super::super::hung;
 use super::super::shapes::{Mesh, Point, mesh_light, model, sub};
@@ -35,8 +36,8 @@ const ROUND: [f64; 5] = [1.0, 0.4, 0.7, 1.3, 1.0];
 fn photometry_round() -> Vec<u8> {
     let even = String::from_utf8(photometry()).expect("it is text");
     let (head, candelas) = even.split_once("\n0\n").expect("one horizontal angle");
-    let head = head
-        .replace(&format!(" {} 1 1 2", CANDELAS.len()), &format!(" {} {} 1 2", CANDELAS.len(), ROUND.len()));
+    let count = CANDELAS.len();
+    let head = changed(head, &format!(" {count} 1 1 2"), &format!(" {count} {} 1 2", ROUND.len()));
     let column = |factor: f64| {
         let scaled: Vec<String> = candelas
             .split_whitespace()
@@ -162,8 +163,11 @@ fn picture([x, y]: [f64; 2]) -> Check {
     let square = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[a, b]| [a, b, 0.0]);
     let texture = "<texture><path>halves.exr</path><exponent>1</exponent></texture>";
     // Seen from below, where it shines.
-    let mesh = hung::mesh("lamp", "lamp", square, 1.0)
-        .replace("<tri>0 1 2</tri><tri>0 2 3</tri>", "<tri>0 2 1</tri><tri>0 3 2</tri>");
+    let mesh = changed(
+        &hung::mesh("lamp", "lamp", square, 1.0),
+        "<tri>0 1 2</tri><tri>0 2 3</tri>",
+        "<tri>0 2 1</tri><tri>0 3 2</tri>",
+    );
     let lamp =
         grey("lamp", 0.0) + &mesh + &mesh_light("lamp", &uniform(RADIANCE), [0.0, 0.0, 1.0], 1.0, texture);
     // Texels stand at whole multiples of their distance, from the left edge on, and blend with their neighbours, round the

@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use super::super::change::with_lens;
 use super::super::check::{Check, Quantity, TECHNIQUES, Target};
 use super::super::text::{ONE_PIXEL, background, camera, scene_file, settings, uniform};
 use super::{AROUND, AROUND_NITS, SIDE, integral, looking};
@@ -9,12 +10,7 @@ use super::{AROUND, AROUND_NITS, SIDE, integral, looking};
 const GROUP: &str = "Lens";
 
 fn lens(radius: f64, focus: f64, tangent: f64, parts: &[String]) -> String {
-    looking([0.0; 3], [0.0, 0.0, 1.0], tangent, "", parts)
-        .replace(
-            "<aperture_radius>1e-5</aperture_radius>",
-            &format!("<aperture_radius>{radius}</aperture_radius>"),
-        )
-        .replace("<focus_distance>1</focus_distance>", &format!("<focus_distance>{focus}</focus_distance>"))
+    with_lens(&looking([0.0; 3], [0.0, 0.0, 1.0], tangent, "", parts), radius, focus)
 }
 
 /// All of them.
@@ -72,10 +68,7 @@ fn vignetted(name: &str, radius: f64) -> Check {
     let mean = |[x0, x1, y0, y1]: [f64; 4]| {
         integral(y0, y1, 2000, |y| up_to(x1, y) - up_to(x0, y)) / ((x1 - x0) * (y1 - y0))
     };
-    let camera = camera([0.0; 3], [0.0, 0.0, 1.0], TANGENT, "").replace(
-        "<aperture_radius>1e-5</aperture_radius>",
-        &format!("<aperture_radius>{radius}</aperture_radius>"),
-    );
+    let camera = with_lens(&camera([0.0; 3], [0.0, 0.0, 1.0], TANGENT, ""), radius, 1.0);
     let scene = scene_file(&[settings(SIDE, ONE_PIXEL), camera, background(&uniform(AROUND))]);
     let about = "With natural vignetting, which is the default, a picture of even light is darker off the axis by cos⁴ of the angle to \
                  it: mean over areas.";

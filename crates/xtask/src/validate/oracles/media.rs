@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use super::super::change::changed;
 use super::super::check::{Check, PATH, Quantity, TECHNIQUES, THREE, Target};
 use super::super::shapes::{Mesh, model};
 use super::super::text::{basic, henyey_greenstein, medium, scattering, specular, sphere, uniform};
@@ -44,7 +45,7 @@ fn half_spaces() -> Vec<Check> {
         let pos = [-5.0 * sine, -5.0 * cosine, 0.0];
         let scene = in_even_light(pos, 1e-3, &parts);
         let straight = "<forwards>0 1 0</forwards>";
-        let scene = scene.replace(straight, &format!("<forwards>{sine} {cosine} 0</forwards>"));
+        let scene = changed(&scene, straight, &format!("<forwards>{sine} {cosine} 0</forwards>"));
         let name = format!("half space, albedo {albedo}, cosine {cosine}");
         let check = Check::new(GROUP, name, about, scene).unit(AROUND_NITS);
         let renderers = if albedo == 0.9 && cosine == 1.0 { TECHNIQUES } else { PATH };
@@ -70,7 +71,7 @@ fn single_scattering() -> Check {
     let parts = [fog(absorption, coefficient, g), sphere([0.0; 3], radius, "m")];
     let deep = in_even_light([0.0, -5.0, 0.0], 1e-3, &parts);
     let settings = format!("<width>{SIDE}</width>");
-    let scene = deep.replace(&settings, &format!("{settings}<max_depth>1</max_depth>"));
+    let scene = changed(&deep, &settings, &format!("{settings}<max_depth>1</max_depth>"));
     let about = "Paths of at most one scattering event along the diameter of a ball, Henyey and Greenstein with g = 0.6: quadrature.";
     // The way bends away from the diameter by less than this over the patch.
     Check::new(GROUP, "scattered once", about, scene)
