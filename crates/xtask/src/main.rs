@@ -12,6 +12,7 @@ mod display;
 mod documents;
 mod fuzz;
 mod generate;
+mod here;
 mod media_library;
 mod soak;
 mod stages;

@@ -16,7 +16,7 @@ use serde_json::{Value, json};
 
 use crate::validate::check::Renderer;
 use crate::validate::console::{Console, write_scene};
-use crate::{Outcome, process};
+use crate::{Outcome, here, process};
 use others::OTHERS;
 use series::{Point, SERIES, Series};
 
@@ -33,8 +33,22 @@ pub struct Figure {
     pub x: f64,
     /// What was measured.
     pub name: String,
-    /// How much it is.
+    /// How much it is: the median of the runs.
     pub value: f64,
+    /// The least and the most of the runs, where there were several.
+    pub spread: Option<[f64; 2]>,
+}
+
+impl Figure {
+    /// How many times better it is than what was: above 1 is better, be it more of a speed or less of seconds, memory and errors.
+    pub fn gain(&self, then: f64) -> f64 {
+        if self.more_is_better() { self.value / then } else { then / self.value }
+    }
+
+    /// Whether it is a speed.
+    pub fn more_is_better(&self) -> bool {
+        ["per_second", "per second", "as fast"].iter().any(|speed| self.name.ends_with(speed))
+    }
 }
 
 struct Options {
@@ -84,7 +98,8 @@ pub fn run(arguments: &[String]) -> Outcome {
     let options = Options::parse(arguments)?;
     let folder = process::target_dir().join("bench");
     let console = Console::new(options.console.clone(), &folder, 1)?;
-    let earlier = options.against.as_deref().map(read).transpose()?;
+    let path = |ending: &str| folder.join(format!("{}.{ending}", options.name));
+    let earlier = options.against.as_deref().map(|against| earlier(against, &path("json"))).transpose()?;
     let wanted = |series: &&Series| options.only.as_ref().is_none_or(|only| series.name == only);
     let mut figures = vec![];
     for series in SERIES.iter().filter(wanted) {
@@ -101,14 +116,19 @@ pub fn run(arguments: &[String]) -> Outcome {
     if figures.is_empty() {
         return Err(format!("no series of that name; there are {}", names().join(", ")));
     }
-    let machine = machine();
     let write = |ending: &str, text: String| {
-        let path = folder.join(format!("{}.{ending}", options.name));
+        let path = path(ending);
         std::fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))?;
         println!("{}", path.display());
         Ok::<(), String>(())
     };
-    let run = json!({"name": options.name, "machine": machine, "figures": figures.iter().map(to_json).collect::<Vec<_>>()});
+    let run = json!({
+        "name": options.name,
+        "date": here::date(),
+        "version": console.version(),
+        "machine": here::machine(),
+        "figures": figures.iter().map(to_json).collect::<Vec<_>>(),
+    });
     write("json", format!("{run:#}\n"))?;
     write("html", page::page(&run, &figures, earlier.as_ref()))?;
     say(&figures, earlier.as_ref());
@@ -120,15 +140,17 @@ fn names() -> Vec<&'static str> {
 }
 
 fn to_json(figure: &Figure) -> Value {
-    json!({"series": figure.series, "x": figure.x, "figure": figure.name, "value": figure.value})
+    let [least, most] = figure.spread.unwrap_or([figure.value; 2]);
+    json!({"series": figure.series, "x": figure.x, "figure": figure.name, "value": figure.value,
+           "least": least, "most": most, "more_is_better": figure.more_is_better()})
 }
 
 /// An earlier run: its name and figures.
 pub struct Earlier {
     /// As it was called.
     pub name: String,
-    /// Its machine, in words.
-    pub machine: String,
+    /// What was measured, when and on which machine, in words.
+    pub about: String,
     figures: Vec<Figure>,
 }
 
@@ -138,6 +160,16 @@ impl Earlier {
         let is_same = |f: &&Figure| f.series == figure.series && f.x == figure.x && f.name == figure.name;
         self.figures.iter().find(is_same).map(|f| f.value)
     }
+}
+
+/// A run to compare with, which the one that writes to a path would not destroy.
+fn earlier(against: &Path, own: &Path) -> Result<Earlier, String> {
+    let earlier = read(against)?;
+    let is_own = std::fs::canonicalize(against).ok() == std::fs::canonicalize(own).ok();
+    if is_own {
+        return Err(format!("{} would be written over: give this run another --name", against.display()));
+    }
+    Ok(earlier)
 }
 
 fn read(path: &Path) -> Result<Earlier, String> {
@@ -152,10 +184,17 @@ fn read(path: &Path) -> Result<Earlier, String> {
             x: value["x"].as_f64()?,
             name: text(&value["figure"]),
             value: value["value"].as_f64()?,
+            spread: None,
         })
     };
     let figures = list.iter().filter_map(figure).collect();
-    Ok(Earlier { name: text(&run["name"]), machine: in_words(&run["machine"]), figures })
+    Ok(Earlier { name: text(&run["name"]), about: about(&run), figures })
+}
+
+/// What a run measured, when and on which machine, in words.
+fn about(run: &Value) -> String {
+    let text = |key: &str| run[key].as_str().unwrap_or("unknown").to_owned();
+    format!("{}; {}; {}", text("version"), text("date"), here::in_words(&run["machine"]))
 }
 
 /// Figures of a point: the median of each.
@@ -178,6 +217,7 @@ fn measure(console: &Console, series: &Series, point: &Point, repeat: usize) -> 
             x: point.x,
             name: (*name).to_owned(),
             value: values[values.len() / 2],
+            spread: Some([values[0], values[values.len() - 1]]),
         }
     };
     let figures = FIGURES.iter().enumerate().map(figure);
@@ -256,43 +296,10 @@ fn peak_memory_mb(process: u32) -> Option<f64> {
     Some(kilobytes / 1024.0)
 }
 
-fn machine() -> Value {
-    let cpu = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let model = cpu
-        .lines()
-        .find_map(|line| line.strip_prefix("model name")?.split_once(':').map(|(_, name)| name.trim()));
-    let memory = std::fs::read_to_string("/proc/meminfo").unwrap_or_default();
-    let total = memory.lines().find_map(|line| {
-        line.strip_prefix("MemTotal:")?.trim().trim_end_matches("kB").trim().parse::<f64>().ok()
-    });
-    let commit = process::capture(&mut process::command("git", &["rev-parse", "--short", "HEAD"]));
-    json!({
-        "processor": model.unwrap_or(std::env::consts::ARCH),
-        "logical_cores": std::thread::available_parallelism().map_or(1, usize::from),
-        "memory_gb": total.map(|kb| (kb / 1024.0 / 1024.0 * 10.0).round() / 10.0),
-        "system": std::env::consts::OS,
-        "commit": commit.map_or_else(|_| String::new(), |c| String::from_utf8_lossy(&c).trim().to_owned()),
-    })
-}
-
-/// A machine in words.
-pub fn in_words(machine: &Value) -> String {
-    let text = |key: &str| machine[key].as_str().unwrap_or("unknown").to_owned();
-    let number = |key: &str| machine[key].as_f64().map_or_else(|| "?".to_owned(), |v| v.to_string());
-    format!(
-        "{}, {} logical cores, {} GB, {}, commit {}",
-        text("processor"),
-        number("logical_cores"),
-        number("memory_gb"),
-        text("system"),
-        text("commit")
-    )
-}
-
 fn say(figures: &[Figure], earlier: Option<&Earlier>) {
     for figure in figures {
-        let ratio = earlier.and_then(|earlier| earlier.value(figure)).map(|then| figure.value / then);
-        let ratio = ratio.map_or_else(String::new, |ratio| format!("{ratio:>8.3} ×"));
+        let gain = earlier.and_then(|earlier| earlier.value(figure)).map(|then| figure.gain(then));
+        let ratio = gain.map_or_else(String::new, |gain| format!("{gain:>8.3} ×"));
         println!(
             "{ratio:>10} {:<12} {:>10} {:<20} {:>14.4}",
             figure.series, figure.x, figure.name, figure.value
@@ -311,6 +318,32 @@ mod tests {
         }
     }
 
+    fn of(name: &str, x: f64, value: f64) -> Figure {
+        Figure { series: "s".into(), x, name: name.into(), value, spread: None }
+    }
+
+    #[test]
+    fn a_gain_is_above_one_where_it_is_better() {
+        let gains = [
+            "rays_per_second",
+            "path: rays per second",
+            "read_s",
+            "peak_memory_mb",
+            "path: relMSE after 5 s",
+        ]
+        .map(|name| of(name, 0.0, 2.0).gain(1.0));
+        assert_eq!(gains, [2.0, 2.0, 0.5, 0.5, 0.5]);
+    }
+
+    #[test]
+    fn a_run_does_not_write_over_what_it_is_compared_with() {
+        let file = std::env::temp_dir().join(format!("indigo-bench-{}.json", std::process::id()));
+        std::fs::write(&file, r#"{"name": "a", "figures": []}"#).expect("it can be written");
+        assert!(earlier(&file, &file).is_err());
+        assert!(earlier(&file, &file.with_extension("other")).is_ok());
+        std::fs::remove_file(&file).expect("it is there");
+    }
+
     #[test]
     fn the_time_of_saving_is_read() {
         assert_eq!(seconds_told("x\nDeveloped and saved in 0.42 s\n"), Some(0.42));
@@ -319,10 +352,10 @@ mod tests {
 
     #[test]
     fn an_earlier_run_is_found_by_series_place_and_figure() {
-        let figure = |x: f64, value: f64| Figure { series: "s".into(), x, name: "f".into(), value };
+        let figure = |x: f64, value: f64| of("f", x, value);
         let earlier = Earlier {
             name: String::new(),
-            machine: String::new(),
+            about: String::new(),
             figures: vec![figure(1.0, 2.0), figure(2.0, 8.0)],
         };
         assert_eq!(earlier.value(&figure(2.0, 4.0)), Some(8.0));

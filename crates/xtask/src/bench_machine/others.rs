@@ -46,7 +46,13 @@ fn told(text: &str) -> Vec<Figure> {
     let figure = |line: &str| {
         let [series, name, value] =
             line.strip_prefix("figure\t")?.split('\t').collect::<Vec<_>>().try_into().ok()?;
-        Some(Figure { series: series.to_owned(), x: 0.0, name: name.to_owned(), value: value.parse().ok()? })
+        Some(Figure {
+            series: series.to_owned(),
+            x: 0.0,
+            name: name.to_owned(),
+            value: value.parse().ok()?,
+            spread: None,
+        })
     };
     text.lines().filter_map(figure).collect()
 }
@@ -63,6 +69,7 @@ mod tests {
             x: 0.0,
             name: "path: rays per second".into(),
             value: 2.5e6,
+            spread: None,
         };
         assert_eq!(told(text), [wanted]);
     }

@@ -5,7 +5,8 @@ use std::fmt::Write;
 use serde_json::Value;
 
 use super::series::SERIES;
-use super::{Earlier, Figure, in_words};
+use super::{Earlier, Figure, about};
+use crate::validate::page::escaped;
 
 /// The style of the report of pictures.
 const STYLE: &str = include_str!("../validate/page.css");
@@ -19,17 +20,39 @@ pub fn page(run: &Value, figures: &[Figure], earlier: Option<&Earlier>) -> Strin
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">\
          <meta name=\"color-scheme\" content=\"light dark\"><title>Indigo: benchmarks</title><style>{STYLE}</style></head><body><main>\
          <h1>How it scales on this machine</h1><p class=\"soft\">{}</p>",
-        in_words(&run["machine"])
+        escaped(&about(run))
     );
     if let Some(earlier) = earlier {
-        let _ = write!(page, "<p>Ratios are to “{}”: {}.</p>", earlier.name, earlier.machine);
+        let _ = write!(
+            page,
+            "<p>Ratios are to “{}” ({}): how many times better this run is, be it more of a speed or less of anything else.</p>",
+            escaped(&earlier.name),
+            escaped(&earlier.about)
+        );
     }
+    // Ratios first.
+    for group in figures.chunk_by(|a, b| a.series == b.series) {
+        let _ =
+            write!(page, "<h2>{}</h2><article>{}</article>", escaped(&heading(group)), table(group, earlier));
+    }
+    page + &plots(figures, earlier) + "</main></body></html>\n"
+}
+
+/// What a series is called.
+fn heading(group: &[Figure]) -> String {
+    let name = group[0].series.as_str();
+    if SERIES.iter().any(|series| series.name == name) { format!("With {name}") } else { name.to_owned() }
+}
+
+/// How figures grow, of the series that make something larger.
+fn plots(figures: &[Figure], earlier: Option<&Earlier>) -> String {
+    let mut page = String::new();
     for series in SERIES {
         let own: Vec<&Figure> = figures.iter().filter(|figure| figure.series == series.name).collect();
         if own.is_empty() {
             continue;
         }
-        let _ = write!(page, "<h2>With {}</h2><article><div class=\"pictures\">", series.name);
+        let _ = write!(page, "<h2>By {}</h2><article><div class=\"pictures\">", series.axis);
         for name in series.figures {
             let points: Vec<[f64; 2]> =
                 own.iter().filter(|f| f.name == *name).map(|f| [f.x, f.value]).collect();
@@ -43,25 +66,9 @@ pub fn page(run: &Value, figures: &[Figure], earlier: Option<&Earlier>) -> Strin
                 series.axis
             );
         }
-        page += "</div>";
-        page += &table(&own, earlier);
-        page += "</article>";
+        page += "</div></article>";
     }
-    page += &others(figures, earlier);
-    page + "</main></body></html>\n"
-}
-
-/// Tables of figures that grow with nothing: those of benchmarks of their own.
-fn others(figures: &[Figure], earlier: Option<&Earlier>) -> String {
-    let is_other = |figure: &&Figure| SERIES.iter().all(|series| series.name != figure.series);
-    let all: Vec<&Figure> = figures.iter().filter(is_other).collect();
-    let groups = all.chunk_by(|a, b| a.series == b.series);
-    groups
-        .map(|group| {
-            let heading = format!("<h2>{}</h2><article>", group[0].series);
-            [&heading, &table(group, earlier), "</article>"].concat()
-        })
-        .collect()
+    page
 }
 
 fn words(figure: &str) -> String {
@@ -73,20 +80,23 @@ fn words(figure: &str) -> String {
     name.replace('_', " ") + unit
 }
 
-fn table(figures: &[&Figure], earlier: Option<&Earlier>) -> String {
+fn table(figures: &[Figure], earlier: Option<&Earlier>) -> String {
     let mut text = String::from(
         "<div class=\"scroll\"><table><tr><th class=\"number\">Ratio</th><th>Figure</th><th class=\"number\">At</th>\
-         <th class=\"number\">Is</th><th class=\"number\">Was</th></tr>",
+         <th class=\"number\">Is</th><th class=\"number\">Least to most</th><th class=\"number\">Was</th></tr>",
     );
     for figure in figures {
         let then = earlier.and_then(|earlier| earlier.value(figure));
-        let ratio = then.map_or_else(|| "–".to_owned(), |then| format!("{:.3}", figure.value / then));
+        let ratio = then.map_or_else(|| "–".to_owned(), |then| format!("{:.3}", figure.gain(then)));
+        let spread = figure
+            .spread
+            .map_or_else(|| "–".to_owned(), |[least, most]| format!("{} to {}", short(least), short(most)));
         let then = then.map_or_else(|| "–".to_owned(), short);
         let _ = write!(
             text,
             "<tr><td class=\"number\">{ratio}</td><td>{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td>\
-             <td class=\"number\">{then}</td></tr>",
-            words(&figure.name),
+             <td class=\"number\">{spread}</td><td class=\"number\">{then}</td></tr>",
+            escaped(&words(&figure.name)),
             short(figure.x),
             short(figure.value)
         );
@@ -179,6 +189,21 @@ mod tests {
     fn a_plot_of_one_point_has_finite_places() {
         let text = plot(&[[1.0, 5.0]], &[]);
         assert!(!text.contains("NaN") && !text.contains("inf"));
+    }
+
+    #[test]
+    fn ratios_come_before_plots_and_names_cannot_break_the_page() {
+        let figure = |series: &str, x: f64| Figure {
+            series: series.into(),
+            x,
+            name: "rays_per_second".into(),
+            value: 1e6,
+            spread: Some([0.5e6, 2e6]),
+        };
+        let figures = [figure("threads", 1.0), figure("<rays>", 0.0)];
+        let text = page(&serde_json::json!({"version": "<b>"}), &figures, None);
+        assert!(text.rfind("</table>") < text.find("<svg"), "tables first");
+        assert!(!text.contains("<rays>") && !text.contains("<b>") && text.contains("500k to 2M"));
     }
 
     #[test]

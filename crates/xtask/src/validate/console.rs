@@ -8,7 +8,7 @@ use std::time::Instant;
 use exr::prelude::{FlatSamples, read_first_flat_layer_from_file};
 
 use super::check::{Area, Check, Form, Quantity, Renderer};
-use crate::process;
+use crate::{here, process};
 
 /// The settings that `text::settings` writes, in whose place a renderer's own stand.
 const TECHNIQUE: &str = "<metropolis>false</metropolis><bidirectional>false</bidirectional>";
@@ -78,6 +78,8 @@ pub struct Console {
     pub folder: PathBuf,
     /// How many run at once, each on one thread.
     pub jobs: usize,
+    /// Whether it was built here, so that the commit is known.
+    is_built_here: bool,
 }
 
 /// Writes a scene to be rendered by one of Indigo's ways, and its files, into a folder; gives its path.
@@ -144,6 +146,7 @@ struct Job<'a> {
 impl Console {
     /// Builds the release console, if it must be, or takes another program.
     pub fn new(program: Option<PathBuf>, folder: &Path, jobs: usize) -> Result<Self, String> {
+        let is_built_here = program.is_none();
         let program = match program {
             Some(program) => program,
             None => {
@@ -157,7 +160,18 @@ impl Console {
         std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
         let program = std::fs::canonicalize(&program).map_err(|e| format!("{}: {e}", program.display()))?;
         let folder = std::fs::canonicalize(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
-        Ok(Self { program, folder, jobs })
+        Ok(Self { program, folder, jobs, is_built_here })
+    }
+
+    /// The console's own words, and the commit if it was built here from one.
+    pub fn version(&self) -> String {
+        let said = process::capture(std::process::Command::new(&self.program).arg("-version"));
+        let said = said.map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).unwrap_or_default();
+        let said = said.lines().next().unwrap_or("unknown version").trim();
+        if self.is_built_here {
+            return format!("{said}, commit {}", here::commit());
+        }
+        format!("{said}, a console that was given: {}, commit unknown", self.program.display())
     }
 
     /// Renders checks by all of Indigo's ways that they name; without pictures for other renderers. A check of which one render

@@ -118,7 +118,7 @@ pub fn run(arguments: &[String]) -> Outcome {
         form,
         family: FAMILY,
         left_out,
-        version: version(&console, options.console.is_some()),
+        version: console.version(),
     };
     report.write(&options.out)?;
     report.say();
@@ -141,21 +141,6 @@ fn judged(check: Check, rendered: Rendered, form: Form, threshold: f64) -> Check
     let judge = Judge { check: &check, demand, renders: &renders, threshold };
     let verdicts = if broken.is_some() { vec![] } else { judge.verdicts() };
     Checked { check, demand, renders, seconds, verdicts, broken }
-}
-
-/// The console's own words, and the commit if it was built here from one.
-fn version(console: &Console, is_given: bool) -> String {
-    let said = process::capture(std::process::Command::new(&console.program).arg("-version"));
-    let commit = || process::capture(&mut process::command("git", &["describe", "--always", "--dirty"]));
-    let text = |bytes: Result<Vec<u8>, String>| {
-        bytes.map_or_else(|_| String::new(), |bytes| String::from_utf8_lossy(&bytes).trim().to_owned())
-    };
-    let said = text(said);
-    let said = said.lines().next().unwrap_or("unknown version");
-    if is_given {
-        return format!("{said}, a console that was given: {}, commit unknown", console.program.display());
-    }
-    format!("{said}, commit {}", text(commit()))
 }
 
 #[cfg(test)]

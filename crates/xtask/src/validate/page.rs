@@ -254,7 +254,8 @@ fn sentence_case(text: &str) -> String {
     first.unwrap_or_default() + letters.as_str() + "."
 }
 
-fn escaped(text: &str) -> String {
+/// Text that cannot break the page.
+pub fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
