@@ -1,5 +1,6 @@
 //! Pictures for reports: tone-mapped, and maps of differences in standard errors.
 
+use super::check::Area;
 use super::console::Picture;
 use super::png;
 use super::statistics::Estimate;
@@ -73,6 +74,16 @@ pub fn difference(own: &[Picture], other: &Other) -> String {
     })
 }
 
+/// Areas of a picture in the colours of how many standard errors each deviates by; later ones lie over earlier ones.
+pub fn deviations([width, height]: [usize; 2], areas: &[(Area, f64)]) -> String {
+    encoded([width, height], |i| {
+        let (x, y) = (i % width, i / width);
+        let holds = |[x0, x1, y0, y1]: Area| (x0..x1).contains(&x) && (y0..y1).contains(&y);
+        let last = areas.iter().rev().find(|(area, _)| holds(*area));
+        last.map_or(diverging(0.0), |(_, t)| if t.is_nan() { BROKEN } else { diverging(*t) })
+    })
+}
+
 /// What a picture is compared with.
 pub enum Other<'a> {
     /// One luminance everywhere.
@@ -131,6 +142,12 @@ mod tests {
         assert_eq!([shown(f64::NAN), shown(f64::INFINITY)], [broken.clone(), broken.clone()]);
         assert_eq!(shown(1.0), encoded([1, 1], |_| [248; 3]));
         assert_eq!(tone_mapped(&[picture(f64::NAN)], white(&[picture(f64::NAN)])), broken);
+    }
+
+    #[test]
+    fn areas_have_the_colours_of_their_deviations() {
+        let shown = deviations([2, 1], &[([0, 2, 0, 1], 4.0), ([1, 2, 0, 1], f64::NAN)]);
+        assert_eq!(shown, encoded([2, 1], |i| if i == 0 { diverging(4.0) } else { BROKEN }));
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! What pictures say: each number beside what it must be.
 
-use super::check::{Area, Check, Demand, Renderer, Row, Target};
+use super::check::{Area, Check, Demand, Quantity, Renderer, Row, Target};
 use super::console::Picture;
 use super::oracles::EVEN_LIGHT;
 use super::statistics::{Comparison, Estimate, quantile, sidak};
@@ -19,6 +19,8 @@ pub struct Verdict {
     pub renderer: Renderer,
     /// Which number.
     pub what: String,
+    /// Of which part of the picture, where it is a luminance.
+    pub area: Option<Area>,
     /// What was expected, with what it is known to.
     pub expected: Estimate,
     /// Whether less is as good.
@@ -94,6 +96,7 @@ impl Judge<'_> {
 
     fn row(&self, row: &Row, renderer: Renderer, i: usize) -> Verdict {
         let unit = self.check.unit;
+        let [width, height] = self.renders[i][0].size;
         let measure = |pictures: &[Picture]| {
             let values: Vec<f64> = pictures.iter().map(|p| p.value(row.quantity, row.area, unit)).collect();
             Estimate::of(&values)
@@ -115,6 +118,7 @@ impl Judge<'_> {
         let verdict = Verdict {
             renderer,
             what: row.what.clone(),
+            area: (row.quantity == Quantity::Y).then(|| row.area.unwrap_or([0, width, 0, height])),
             expected,
             is_bound,
             measured,
@@ -176,6 +180,7 @@ impl Judge<'_> {
         Verdict {
             renderer,
             what: format!("worst of {tests} block means, {words}"),
+            area: None,
             expected,
             is_bound,
             measured,
@@ -197,6 +202,7 @@ impl Judge<'_> {
         (broken > 0).then(|| Verdict {
             renderer,
             what: "pixels that are no numbers".to_owned(),
+            area: None,
             expected: none,
             is_bound: false,
             measured: Estimate::exact(broken as f64),

@@ -31,7 +31,7 @@ use console::{Console, Rendered};
 use judge::{FAMILY, Judge, threshold};
 use report::{Checked, LeftOut, Report};
 
-use crate::{Outcome, process, venv};
+use crate::{Outcome, here, process, venv};
 
 const USAGE: &str = "usage: cargo xtask validate [--full] [--only GROUP OR NAME] [--console PROGRAM] [--jobs N] \
                      [--no-mitsuba] [--out FOLDER]";
@@ -92,7 +92,7 @@ impl Options {
 /// What could not be begun, or how much failed; there is a report of the latter.
 pub fn run(arguments: &[String]) -> Outcome {
     let options = Options::parse(arguments)?;
-    let start = Instant::now();
+    let (start, date) = (Instant::now(), here::date());
     let all = [oracles::all(), agreement::all(), cross::all()].concat();
     let left_out = LeftOut::count(all.iter().filter_map(|check| options.leaves_out(check)));
     let checks: Vec<Check> = all.into_iter().filter(|check| options.leaves_out(check).is_none()).collect();
@@ -114,6 +114,8 @@ pub fn run(arguments: &[String]) -> Outcome {
     let report = Report {
         checked: checked.map(|(check, rendered)| judged(check, rendered, form, threshold)).collect(),
         command: format!("cargo xtask validate {}", arguments.join(" ")),
+        date,
+        machine: here::machine(),
         seconds: start.elapsed().as_secs_f64(),
         form,
         family: FAMILY,

@@ -2,12 +2,11 @@
 
 use std::fmt::Write;
 
-use super::check::{Check, Form, Renderer, Target};
-use super::console::Picture;
-use super::images::{DEEPEST, Other, difference, tone_mapped, white};
+use super::check::{Area, Form, Renderer, Target};
+use super::images::{DEEPEST, Other, deviations, difference, tone_mapped, white};
 use super::judge::Verdict;
 use super::report::{Checked, Report};
-use super::statistics::quantile;
+use crate::here;
 
 /// Style sheet, light and dark.
 const STYLE: &str = include_str!("page.css");
@@ -52,15 +51,17 @@ fn head(report: &Report) -> String {
          by Student’s t. A comparison fails when its deviation is so unlikely that a right renderer would fail anywhere in this report \
          with a probability of {} (Šidák), or when noise hides deviations that it must show (it is unresolved): the band in each drawing is what \
          would have been noticed. {form}</p>\
-         <p>Beside a picture is its difference from the value it must have, or from the first picture, in standard errors of each pixel: \
+         <p>Beside a picture is its difference from the value it must have, or from the first picture, in standard errors of each pixel, or \
+         where it must be uneven in those of each area of which a value is known; of several pictures that are compared with one another the \
+         first has none: \
          <span class=\"key\"></span> −{DEEPEST} to +{DEEPEST}; pixels that hold no numbers are magenta.</p>\
          <p class=\"soft\">{} · {} · {} · {:.0} s · <code>{}</code></p>",
         escaped(&sentence_case(&report.extent())),
         report.form.seeds(),
         report.family,
         escaped(&report.version),
-        std::env::consts::OS,
-        std::env::consts::ARCH,
+        escaped(&report.date),
+        escaped(&here::in_words(&report.machine)),
         report.seconds,
         escaped(&report.command)
     )
@@ -137,12 +138,13 @@ fn pictures(checked: &Checked) -> String {
     let white = white(&checked.renders[0]);
     let mut text = String::from("<div class=\"pictures\">");
     for (i, renderer) in checked.check.renderers.iter().enumerate() {
-        text += &figure(&checked.check, *renderer, i, &checked.renders, white);
+        text += &figure(checked, *renderer, i, white);
     }
     text + "</div>"
 }
 
-fn figure(check: &Check, renderer: Renderer, i: usize, renders: &[Vec<Picture>], white: f64) -> String {
+fn figure(checked: &Checked, renderer: Renderer, i: usize, white: f64) -> String {
+    let (check, renders) = (&checked.check, &checked.renders);
     let other = match check.rows.first().map(|row| &row.target) {
         Some(Target::Value(value, _)) if check.is_flat => Some(Other::Value(value * check.unit)),
         _ if i > 0 => Some(Other::Pictures(&renders[0])),
@@ -151,20 +153,36 @@ fn figure(check: &Check, renderer: Renderer, i: usize, renders: &[Vec<Picture>],
     let name = renderer.name();
     let picture = |alt: &str, source: &str| format!("<img alt=\"{alt}{name}\" src=\"{source}\">");
     let shown = picture("", &tone_mapped(&renders[i], white));
-    let beside = other.map(|other| picture("difference of ", &difference(&renders[i], &other)));
+    let beside = match other {
+        Some(other) => Some(difference(&renders[i], &other)),
+        // What pixels must have is not known where a picture is uneven: the areas that have a number are shown.
+        None => by_area(checked, renderer, renders[i][0].size),
+    };
+    let beside = beside.map(|map| picture("difference of ", &map));
     format!(
         "<figure><div class=\"pair\">{shown}{}</div><figcaption>{name}</figcaption></figure>",
         beside.unwrap_or_default()
     )
 }
 
+/// The areas of which a luminance is known, each in the colour of its deviation.
+fn by_area(checked: &Checked, renderer: Renderer, size: [usize; 2]) -> Option<String> {
+    let areas: Vec<(Area, f64)> = checked
+        .verdicts
+        .iter()
+        .filter(|verdict| verdict.renderer == renderer)
+        .filter_map(|verdict| Some((verdict.area?, verdict.comparison.t)))
+        .collect();
+    (!areas.is_empty()).then(|| deviations(size, &areas))
+}
+
 fn row(verdict: &Verdict, name: &str) -> String {
     let (m, e) = (&verdict.measured, &verdict.expected);
-    let half = quantile(0.05, (m.count.max(2) - 1) as f64) * m.error;
+    let half = m.half_interval();
     let deviation = if e.mean == 0.0 { f64::NAN } else { m.mean / e.mean - 1.0 };
     let must = match (verdict.is_bound, e.error > 0.0) {
         (true, _) => format!("≤ {}", number(e.mean)),
-        (_, true) => format!("{} <small>± {}</small>", number(e.mean), short(1.96 * e.error)),
+        (_, true) => format!("{} <small>± {}</small>", number(e.mean), short(e.half_interval())),
         _ => number(e.mean),
     };
     let said = match &verdict.failure {
@@ -194,9 +212,13 @@ fn row(verdict: &Verdict, name: &str) -> String {
 fn interval(verdict: &Verdict, half: f64) -> String {
     let [width, height] = INTERVAL;
     let (m, e) = (&verdict.measured, &verdict.expected);
-    let noticed = (verdict.resolution * e.mean.abs()).max(1e-5 * e.mean.abs());
-    let scale = width / (4.0 * noticed);
-    let at = |v: f64| ((v - e.mean) * scale + 0.5 * width).clamp(2.0, width - 2.0);
+    // What is 0 has no share: the band is then of what was measured.
+    let size = if e.mean == 0.0 { m.mean.abs().max(half) } else { e.mean.abs() };
+    let noticed = size * verdict.resolution.max(1e-5);
+    let at = |v: f64| {
+        let place = (v - e.mean) / noticed * 0.25 * width;
+        if place.is_nan() { 0.5 * width } else { (place + 0.5 * width).clamp(2.0, width - 2.0) }
+    };
     let middle = 0.5 * height;
     let class = if verdict.failure.is_some() { "interval off" } else { "interval" };
     format!(

@@ -9,6 +9,7 @@ use super::check::{Check, Demand, Form, Target};
 use super::console::Picture;
 use super::judge::Verdict;
 use super::page;
+use super::statistics::Estimate;
 
 /// A check, its pictures and what they said.
 pub struct Checked {
@@ -32,6 +33,10 @@ pub struct Report {
     pub checked: Vec<Checked>,
     /// What was typed.
     pub command: String,
+    /// When it began.
+    pub date: String,
+    /// The machine that it ran on.
+    pub machine: Value,
     /// How long it took.
     pub seconds: f64,
     /// How much was rendered.
@@ -148,6 +153,7 @@ impl Report {
     }
 
     fn json(&self) -> Value {
+        let interval = |e: &Estimate| [e.mean - e.half_interval(), e.mean + e.half_interval()];
         let verdict = |v: &Verdict| {
             json!({
                 "renderer": v.renderer.name(),
@@ -155,11 +161,13 @@ impl Report {
                 "expected": v.expected.mean,
                 "expected_standard_error": v.expected.error,
                 "at_most": v.is_bound,
+                "expected_interval": interval(&v.expected),
                 "measured": v.measured.mean,
                 "standard_error": v.measured.error,
+                "interval": interval(&v.measured),
                 "renders": v.measured.count,
                 "granted": v.allowance,
-                "t": v.comparison.t,
+                "t": written(v.comparison.t),
                 "degrees_of_freedom": v.comparison.freedom,
                 "p": v.comparison.p,
                 "threshold": v.threshold,
@@ -187,6 +195,8 @@ impl Report {
         json!({
             "command": self.command,
             "version": self.version,
+            "date": self.date,
+            "machine": self.machine,
             "seconds": self.seconds,
             "renders": self.form.seeds(),
             "family_false_alarm": self.family,
@@ -198,6 +208,11 @@ impl Report {
             "checks": self.checked.iter().map(check).collect::<Vec<_>>(),
         })
     }
+}
+
+/// A number, or its name where JSON has none for it.
+fn written(value: f64) -> Value {
+    if value.is_finite() { json!(value) } else { json!(value.to_string()) }
 }
 
 /// A judgement in words.

@@ -24,6 +24,11 @@ impl Estimate {
         Self { count: values.len(), mean, error }
     }
 
+    /// Half of the interval that holds the truth with 95 % by Student's t.
+    pub fn half_interval(&self) -> f64 {
+        if self.error == 0.0 { 0.0 } else { quantile(0.05, (self.count.max(2) - 1) as f64) * self.error }
+    }
+
     /// A number that is known.
     pub fn exact(value: f64) -> Self {
         Self { count: usize::MAX, mean: value, error: 0.0 }
@@ -155,6 +160,14 @@ mod tests {
         // Tabulated: 2.131 has 5 % with 15 degrees of freedom; the normal distribution has 1.95996.
         assert!((quantile(0.05, 15.0) - 2.13145).abs() < 1e-5);
         assert!((quantile(0.05, 1e7) - 1.959_96).abs() < 1e-5);
+    }
+
+    /// Tabulated: 2.131 standard errors of 16 values, and 1.96 of very many.
+    #[test]
+    fn intervals_are_student_s() {
+        let half = |count: usize| Estimate { count, mean: 5.0, error: 2.0 }.half_interval();
+        assert!((half(16) - 4.262_9).abs() < 1e-3 && (half(10_000_000) - 3.919_93).abs() < 1e-3);
+        assert_eq!(Estimate::exact(1.0).half_interval(), 0.0);
     }
 
     #[test]
