@@ -1,9 +1,10 @@
 //! Renders scenes with the release console, and reads the pictures.
 
 use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use exr::prelude::{FlatSamples, read_first_flat_layer_from_file};
 
@@ -18,6 +19,9 @@ const RGB_TO_XYZ: [[f64; 3]; 3] = [
     [0.212_639_0, 0.715_168_7, 0.072_192_3],
     [0.019_330_8, 0.119_194_8, 0.950_532_2],
 ];
+
+/// How long a render may take: the longest of the full form are minutes.
+const LIMIT: Duration = Duration::from_hours(1);
 
 /// A picture in X, Y, Z, cd/m².
 #[derive(Clone, Debug, PartialEq)]
@@ -45,6 +49,15 @@ impl Picture {
         let rgb = r.iter().zip(g).zip(b).map(|((r, g), b)| [*r, *g, *b].map(f64::from));
         let pixels = rgb.map(|rgb| RGB_TO_XYZ.map(|row| (0..3).map(|c| row[c] * rgb[c]).sum())).collect();
         Ok(Self { size: [layer.size.x(), layer.size.y()], pixels })
+    }
+
+    /// The same, if it has the size that a scene asks for: areas are of that.
+    fn of_size(self, scene: &str) -> Result<Self, String> {
+        let asked = ["width", "height"].map(|name| number_in(scene, name));
+        if asked == self.size.map(Some) {
+            return Ok(self);
+        }
+        Err(format!("a picture of {:?} pixels, of which the scene wants {asked:?}", self.size))
     }
 
     /// Mean X, Y, Z of an area, or of all.
@@ -165,7 +178,7 @@ impl Console {
 
     /// The console's own words, and the commit if it was built here from one.
     pub fn version(&self) -> String {
-        let said = process::capture(std::process::Command::new(&self.program).arg("-version"));
+        let said = process::capture(Command::new(&self.program).arg("-version"));
         let said = said.map(|bytes| String::from_utf8_lossy(&bytes).into_owned()).unwrap_or_default();
         let said = said.lines().next().unwrap_or("unknown version").trim();
         if self.is_built_here {
@@ -236,8 +249,12 @@ impl Console {
         let stem = format!("{:?}_{}", job.renderer, job.seed).to_lowercase();
         let folder = self.folder_of(job.check);
         let picture = folder.join(format!("{stem}.png"));
+        let linear = folder.join(format!("{stem}_untonemapped.exr"));
+        // What a run that was killed has left would be taken for this one's.
+        drop((std::fs::remove_file(&linear), std::fs::remove_file(&picture)));
         let seed = seed(job.check, job.renderer, job.seed);
-        let output = std::process::Command::new(&self.program)
+        let mut command = Command::new(&self.program);
+        command
             .arg(scene_path(&folder, job.renderer))
             .args([
                 "-quiet",
@@ -250,17 +267,72 @@ impl Console {
                 "-o",
             ])
             .arg(&picture)
-            .current_dir(&folder)
-            .output()
-            .map_err(|error| format!("{}: {error}", self.program.display()))?;
-        let said = String::from_utf8_lossy(&output.stderr);
-        if !output.status.success() {
-            return Err(format!("{}, {}: {}\n{said}", job.check.name, job.renderer.name(), output.status));
-        }
-        let linear = folder.join(format!("{stem}_untonemapped.exr"));
-        let read = Picture::read(&linear);
+            .current_dir(&folder);
+        let log = folder.join(format!("{stem}.log"));
+        let fault = |why: String| format!("{}, {}: {why}", job.check.name, job.renderer.name());
+        ended(&mut command, &log, LIMIT).map_err(fault)?;
+        let read =
+            Picture::read(&linear).and_then(|picture| picture.of_size(&job.check.scene)).map_err(fault);
         // Thousands of them would fill folders that nobody looks at: the scenes stay.
-        drop((std::fs::remove_file(&linear), std::fs::remove_file(&picture)));
+        drop((std::fs::remove_file(&linear), std::fs::remove_file(&picture), std::fs::remove_file(&log)));
         read
+    }
+}
+
+/// Runs a program to its end, or ends it when a time is over. What it says goes to a file, which no pipe can stop.
+fn ended(command: &mut Command, log: &Path, limit: Duration) -> Result<(), String> {
+    let program = command.get_program().to_string_lossy().into_owned();
+    let fault = |why: &dyn std::fmt::Display| format!("{program}: {why}");
+    let file = std::fs::File::create(log).map_err(|error| format!("{}: {error}", log.display()))?;
+    let start = Instant::now();
+    let started = command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(file).spawn();
+    let mut child = started.map_err(|error| fault(&error))?;
+    let status = loop {
+        if let Some(status) = child.try_wait().map_err(|error| fault(&error))? {
+            break status;
+        }
+        if start.elapsed() > limit {
+            drop((child.kill(), child.wait()));
+            return Err(fault(&format!("not done after {} s", limit.as_secs())));
+        }
+        // Short beside the shortest render, some tens of milliseconds.
+        std::thread::sleep(Duration::from_millis(2));
+    };
+    if status.success() {
+        return Ok(());
+    }
+    Err(format!("{status}\n{}", std::fs::read_to_string(log).unwrap_or_default()))
+}
+
+/// The number that the one element of a name holds.
+fn number_in(scene: &str, name: &str) -> Option<usize> {
+    let (_, after) = scene.split_once(&format!("<{name}>"))?;
+    after.split_once('<')?.0.trim().parse().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[cfg(unix)]
+    #[test]
+    fn a_program_that_does_not_end_is_ended() {
+        let log = std::env::temp_dir().join(format!("indigo-ended-{}", std::process::id()));
+        let run = |words: &str, limit: u64| {
+            ended(Command::new("sh").args(["-c", words]), &log, Duration::from_millis(limit))
+        };
+        assert_eq!(run("exit 0", 60_000), Ok(()));
+        assert!(run("echo why >&2; exit 3", 60_000).is_err_and(|said| said.contains("why")));
+        assert!(run("exec sleep 60", 50).is_err_and(|said| said.contains("not done")));
+        std::fs::remove_file(&log).expect("it was written");
+    }
+
+    #[test]
+    fn a_picture_of_another_size_than_the_scene_s_is_refused() {
+        let picture = Picture { size: [8, 4], pixels: vec![[0.0; 3]; 32] };
+        let scene = |width: u32| format!("<width>{width}</width><height>4</height>");
+        assert_eq!(picture.clone().of_size(&scene(8)), Ok(picture.clone()));
+        assert!(picture.clone().of_size(&scene(16)).is_err());
+        assert!(picture.of_size("").is_err());
     }
 }
