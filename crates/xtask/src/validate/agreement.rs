@@ -12,7 +12,8 @@ use super::oracles::{AROUND, material};
 use super::shapes::{Mesh, Point, mesh_light, model};
 use super::text::{ONE_PIXEL, basic, flat_camera, grey, medium, scene_file, settings, specular, uniform};
 
-const GROUP: &str = "One picture by all ways";
+/// The chapter.
+pub const GROUP: &str = "One picture by all ways";
 /// Samples per pixel of each render.
 const SAMPLES: u32 = 32;
 /// Share of the mean that must be seen in the quick form.

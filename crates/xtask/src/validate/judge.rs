@@ -42,7 +42,9 @@ pub struct Verdict {
 }
 
 impl Verdict {
-    fn failing(mut self) -> Self {
+    /// With what failed, if anything did.
+    #[must_use]
+    pub fn failing(mut self) -> Self {
         self.failure = if !self.measured.mean.is_finite() {
             Some("no number")
         } else if self.comparison.p < self.threshold {

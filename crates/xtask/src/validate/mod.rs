@@ -18,6 +18,7 @@ pub mod report;
 #[path = "../../../render/tests/common/shapes.rs"]
 #[allow(dead_code, reason = "the renderer's tests make their scenes of the same parts")]
 pub mod shapes;
+pub mod signs;
 pub mod statistics;
 #[path = "../../../render/tests/common/text.rs"]
 #[allow(dead_code, reason = "the renderer's tests make their scenes of the same parts")]
@@ -104,22 +105,27 @@ pub fn run(arguments: &[String]) -> Outcome {
         // Before all that takes long: it may need a network.
         venv::for_validation()?;
     }
-    let comparisons: usize = checks.iter().map(Check::comparisons).sum();
+    let ways = signs::ways(&checks);
+    let comparisons: usize = checks.iter().map(Check::comparisons).sum::<usize>() + ways.len();
     let form = options.form;
     println!("{} checks, {comparisons} comparisons, {} renders each", checks.len(), form.seeds());
     let mut renders = console.render(&checks, form)?;
     cross::render(&checks, &mut renders, &console.folder, form)?;
     let threshold = threshold(comparisons);
-    let checked = checks.into_iter().zip(renders);
+    let count = checks.len();
+    let pairs = checks.into_iter().zip(renders);
+    let mut checked: Vec<Checked> =
+        pairs.map(|(check, rendered)| judged(check, rendered, form, threshold)).collect();
+    checked.extend(signs::check(&checked, &ways, form, threshold));
     let report = Report {
-        checked: checked.map(|(check, rendered)| judged(check, rendered, form, threshold)).collect(),
+        checked,
+        extent: left_out.words(count),
         command: format!("cargo xtask validate {}", arguments.join(" ")),
         date,
         machine: here::machine(),
         seconds: start.elapsed().as_secs_f64(),
         form,
         family: FAMILY,
-        left_out,
         version: console.version(),
     };
     report.write(&options.out)?;

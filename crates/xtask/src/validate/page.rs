@@ -49,14 +49,14 @@ fn head(report: &Report) -> String {
         "<h1>Do the pictures come out true?</h1><p class=\"lead\">{} {said}</p>\
          <p>Each picture was rendered {} times with independent random numbers; numbers are means, and intervals hold 95 % of them \
          by Student’s t. A comparison fails when its deviation is so unlikely that a right renderer would fail anywhere in this report \
-         with a probability of {} (Šidák), or when noise hides deviations that it must show (it is unresolved): the band in each drawing is what \
-         would have been noticed. {form}</p>\
+         with a probability of {} (Šidák), or when noise hides deviations that it must show (it is unresolved). The band in each drawing is what \
+         a comparison would have noticed in half of all runs, were it the true deviation: nearly always from one and a half times as much on. {form}</p>\
          <p>Beside a picture is its difference from the value it must have, or from the first picture, in standard errors of each pixel, or \
          where it must be uneven in those of each area of which a value is known; of several pictures that are compared with one another the \
          first has none: \
          <span class=\"key\"></span> −{DEEPEST} to +{DEEPEST}; pixels that hold no numbers are magenta.</p>\
          <p class=\"soft\">{} · {} · {} · {:.0} s · <code>{}</code></p>",
-        escaped(&sentence_case(&report.extent())),
+        escaped(&sentence_case(&report.extent)),
         report.form.seeds(),
         report.family,
         escaped(&report.version),
@@ -113,6 +113,9 @@ fn article(checked: &Checked) -> String {
         let _ = write!(text, "<pre>{}</pre></article>", escaped(error));
         return text;
     }
+    if checked.renders.is_empty() {
+        return text + &verdicts(checked);
+    }
     let longer = check.longer.iter().map(|(who, times)| format!(", {} {times} times as many", who.name()));
     let longer = longer.collect::<String>();
     let _ = write!(
@@ -122,9 +125,15 @@ fn article(checked: &Checked) -> String {
         two_digits(100.0 * checked.demand.resolution),
         two_digits(100.0 * checked.demand.blocks)
     );
-    text += &pictures(checked);
-    text += "<div class=\"scroll\"><table><tr><th>Rendered by</th><th></th><th class=\"number\">Must be</th><th class=\"number\">Is</th>\
-             <th class=\"number\">Deviation</th><th></th><th class=\"number\">Standard errors</th><th class=\"number\">p</th><th></th></tr>";
+    text + &pictures(checked) + &verdicts(checked)
+}
+
+/// The table of a check's comparisons.
+fn verdicts(checked: &Checked) -> String {
+    let mut text = String::from(
+        "<div class=\"scroll\"><table><tr><th>Rendered by</th><th></th><th class=\"number\">Must be</th><th class=\"number\">Is</th>\
+             <th class=\"number\">Deviation</th><th></th><th class=\"number\">Standard errors</th><th class=\"number\">p</th><th></th></tr>",
+    );
     let mut last = None;
     for verdict in &checked.verdicts {
         let name = if last == Some(verdict.renderer) { "" } else { verdict.renderer.name() };
