@@ -14,7 +14,7 @@ use crate::{here, process};
 /// The settings that `text::settings` writes, in whose place a renderer's own stand.
 const TECHNIQUE: &str = "<metropolis>false</metropolis><bidirectional>false</bidirectional>";
 /// Rows of Rec. 709 (D65) to XYZ, as IEC 61966-2-1 derives them, to seven digits.
-const RGB_TO_XYZ: [[f64; 3]; 3] = [
+pub const RGB_TO_XYZ: [[f64; 3]; 3] = [
     [0.412_390_8, 0.357_584_3, 0.180_480_8],
     [0.212_639_0, 0.715_168_7, 0.072_192_3],
     [0.019_330_8, 0.119_194_8, 0.950_532_2],

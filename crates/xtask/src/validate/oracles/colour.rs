@@ -1,8 +1,11 @@
 //! Colours and photometry.
 
 use super::super::check::{Check, PATH, Quantity, Target};
-use super::super::text::background;
-use super::{integral, looking};
+use super::super::console::RGB_TO_XYZ;
+use super::super::hung;
+use super::super::shapes::model;
+use super::super::text::{background, diffuse};
+use super::{AROUND, AROUND_NITS, integral, looking};
 
 const GROUP: &str = "Colour";
 
@@ -11,6 +14,9 @@ const OBSERVER: &[[f64; 3]] = &include!("../../../../spectrum/data/cie1931_2deg_
 const FIRST_NM: f64 = 360.0;
 /// Lumens of a watt at 555 nm, where the observer's y is 1: 683 by definition at 540 THz, which is 555.017 nm in air.
 const EFFICACY: f64 = 683.002;
+/// What colours are granted that become spectra under D65: of its x and y the standard has four digits, and half of the last one is
+/// this part of them.
+const WHITE_DIGITS: f64 = 1.5e-4;
 
 /// X, Y and Z of a radiance in W m⁻² sr⁻¹ nm⁻¹ from one wavelength to another, in cd/m².
 pub fn tristimulus(from: f64, to: f64, radiance: impl Fn(f64) -> f64) -> [f64; 3] {
@@ -66,7 +72,53 @@ pub fn checks() -> Vec<Check> {
     let check =
         seen("white of sRGB", about, white).row("x / y", Quantity::XOverY, None, Target::Value(x / y, 0.0));
     checks.push(check.row("z / y", Quantity::ZOverY, None, Target::Value(z / y, 0.0)));
+    checks.extend(
+        [("orange", [0.8, 0.3, 0.1]), ("blue", [0.1, 0.25, 0.7]), ("leaf", [0.15, 0.4, 0.08])]
+            .map(|(name, rgb)| [coloured_sheet(name, rgb), coloured_light(name, rgb)])
+            .concat(),
+    );
     checks
+}
+
+/// X, Y and Z of linear Rec. 709 (IEC 61966-2-1), as sums over Y of white, which is 1.
+fn xyz_of(rgb: [f64; 3]) -> [f64; 3] {
+    RGB_TO_XYZ.map(|row| (0..3).map(|c| row[c] * rgb[c]).sum())
+}
+
+/// `<rgb>`, times a factor.
+fn rgb_spectrum(rgb: [f64; 3], factor: f64) -> String {
+    let [r, g, b] = rgb.map(|v| v * factor);
+    format!("<rgb><rgb>{r} {g} {b}</rgb></rgb>")
+}
+
+/// A check of three numbers, beside those of a colour.
+fn of_colour(check: Check, rgb: [f64; 3]) -> Check {
+    let [x, y, z] = xyz_of(rgb);
+    check
+        .row("luminance", Quantity::Y, None, Target::Value(y, WHITE_DIGITS * y))
+        .row("x / y", Quantity::XOverY, None, Target::Value(x / y, WHITE_DIGITS * x / y))
+        .row("z / y", Quantity::ZOverY, None, Target::Value(z / y, WHITE_DIGITS * z / y))
+}
+
+/// A matt sheet of a colour in light of D65 shows that colour.
+fn coloured_sheet(name: &str, rgb: [f64; 3]) -> Check {
+    let sheet = hung::mesh("sheet", "m", hung::corners([0.0, 5.0, 0.0], [0.0, -1.0, 0.0], 50.0), 1.0);
+    let white = rgb_spectrum([1.0; 3], AROUND);
+    let parts = [diffuse("m", &rgb_spectrum(rgb, 1.0)), sheet + &model("sheet"), background(&white)];
+    let about = format!(
+        "A reflectance by `rgb` {rgb:?} has under D65 the X, Y and Z of that colour of Rec. 709 (IEC 61966-2-1)."
+    );
+    let scene = looking([0.0; 3], [0.0, 1.0, 0.0], 0.1, "", &parts);
+    of_colour(Check::new(GROUP, format!("{name} reflectance"), about, scene).by(PATH).unit(AROUND_NITS), rgb)
+        .effort(32, 5e-3)
+}
+
+/// Light of a colour.
+fn coloured_light(name: &str, rgb: [f64; 3]) -> Check {
+    let about = format!(
+        "Light by `rgb` {rgb:?} has the X, Y and Z of that colour, where white of the same numbers is D65."
+    );
+    of_colour(seen(&format!("{name} light"), &about, &rgb_spectrum(rgb, AROUND)).unit(AROUND_NITS), rgb)
 }
 
 /// An illuminant as the table holds it.

@@ -52,7 +52,26 @@ fn albedos() -> Vec<Check> {
             &[grey("a", 0.8), grey("b", 0.2), material("m", blend), ball],
             0.7 * 0.8 + 0.3 * 0.2,
         ),
+        furnace(
+            "thin sheet",
+            "Of each side’s light 0.6 is scattered back by the front’s material, of albedo 0.7, and 0.5 of the rest comes through from the \
+             other side: 0.6 · 0.7 + 0.4 · 0.5.",
+            &[grey("front", 0.7), grey("back", 0.1), thin_sheet(0.6, 0.5), sheet(40.0)],
+            0.6 * 0.7 + 0.4 * 0.5,
+        )
+        .by(TECHNIQUES)
+        .effort(16, 5e-3),
     ]
+}
+
+/// A material "m" of which a part of the light is scattered back, and some of the rest let through.
+fn thin_sheet(back: f64, through: f64) -> String {
+    let kind = format!(
+        "<front_material_name>front</front_material_name><back_material_name>back</back_material_name><r_f>{back}</r_f>\
+         <transmittance_spectrum>{}</transmittance_spectrum>",
+        uniform(through)
+    );
+    material("m", &format!("<double_sided_thin>{kind}</double_sided_thin>"))
 }
 
 /// Materials that absorb nothing cannot be told from their surroundings.

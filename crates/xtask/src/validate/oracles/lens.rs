@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::super::change::with_lens;
-use super::super::check::{Check, Quantity, TECHNIQUES, Target};
+use super::super::check::{Area, Check, Quantity, TECHNIQUES, Target};
 use super::super::text::{ONE_PIXEL, background, camera, scene_file, settings, uniform};
 use super::{AROUND, AROUND_NITS, SIDE, integral, looking};
 
@@ -60,14 +60,6 @@ pub fn checks() -> Vec<Check> {
 /// Natural vignetting: even light falls off towards the corners like cos⁴ of the angle to the axis.
 fn vignetted(name: &str, radius: f64) -> Check {
     const TANGENT: f64 = 0.6;
-    // ∫ dx / (1 + x² + y²)², from the axis to x at a height y, in closed form; over y by quadrature.
-    let up_to = |x: f64, y: f64| {
-        let a = 1.0 + y * y;
-        0.5 / a * (x / (a + x * x) + (x / a.sqrt()).atan() / a.sqrt())
-    };
-    let mean = |[x0, x1, y0, y1]: [f64; 4]| {
-        integral(y0, y1, 2000, |y| up_to(x1, y) - up_to(x0, y)) / ((x1 - x0) * (y1 - y0))
-    };
     let camera = with_lens(&camera([0.0; 3], [0.0, 0.0, 1.0], TANGENT, ""), radius, 1.0);
     let scene = scene_file(&[settings(SIDE, ONE_PIXEL), camera, background(&uniform(AROUND))]);
     let about = "With natural vignetting, which is the default, a picture of even light is darker off the axis by cos⁴ of the angle to \
@@ -81,11 +73,21 @@ fn vignetted(name: &str, radius: f64) -> Check {
         ("edge", [0, 2, 6, 10]),
         ("corner", [14, 16, 14, 16]),
     ] {
-        let at = |i: usize| TANGENT * (2.0 * i as f64 / side as f64 - 1.0);
-        let value = mean([x0, x1, y0, y1].map(at));
+        let value = mean_fall_off([x0, x1, y0, y1], TANGENT);
         check = check.row(what, Quantity::Y, Some([x0, x1, y0, y1]), Target::Value(value, 0.0));
     }
     check.effort(64, 5e-3)
+}
+
+/// Mean of cos⁴ of the angle to the axis over an area of a picture that sees a width of ±`tangent`.
+pub fn mean_fall_off(area: Area, tangent: f64) -> f64 {
+    let [x0, x1, y0, y1] = area.map(|i| tangent * (2.0 * i as f64 / f64::from(SIDE) - 1.0));
+    // ∫ dx / (1 + x² + y²)², from the axis to x at a height y, in closed form; over y by quadrature.
+    let up_to = |x: f64, y: f64| {
+        let a = 1.0 + y * y;
+        0.5 / a * (x / (a + x * x) + (x / a.sqrt()).atan() / a.sqrt())
+    };
+    integral(y0, y1, 2000, |y| up_to(x1, y) - up_to(x0, y)) / ((x1 - x0) * (y1 - y0))
 }
 
 /// Share of a disc that a square round its middle covers, where the square's corners reach out of it.

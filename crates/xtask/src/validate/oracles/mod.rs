@@ -1,5 +1,6 @@
 //! Scenes whose pictures are known: by a closed form, by quadrature, or by tables of other programs.
 
+mod camera;
 mod colour;
 mod direct;
 mod dispersion;
@@ -47,6 +48,7 @@ pub fn all() -> Vec<Check> {
         media::checks(),
         colour::checks(),
         lens::checks(),
+        camera::checks(),
         sky::checks(),
         orientation::checks(),
         reference::checks(),

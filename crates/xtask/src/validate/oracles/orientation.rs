@@ -15,17 +15,15 @@ pub fn checks() -> Vec<Check> {
 }
 
 /// What the quarters of a picture have: upper left, upper right, lower left, lower right.
-const QUARTERS: [f64; 4] = [1.0, 0.7, 0.4, 0.15];
-const QUARTERS_FILE: &str = "quarters.exr";
+pub const QUARTERS: [f64; 4] = [1.0, 0.7, 0.4, 0.15];
+pub const QUARTERS_FILE: &str = "quarters.exr";
 
 /// Looks straight at a square on which that picture hangs, and sees nothing else.
 fn hangs(name: &str, about: &str, scene: impl Fn(String) -> [String; 3]) -> Check {
-    const TEXELS: usize = 64;
     let square = hung::corners([0.0, 5.0, 0.0], [0.0, -1.0, 0.0], 1.0);
     let scene = looking([0.0; 3], [0.0, 1.0, 0.0], 0.2, "", &scene(hung::mesh("square", "m", square, 1.0)));
-    let mut check = Check::new(GROUP, name, about, scene).unit(AROUND_NITS).by(TECHNIQUES).effort(64, 5e-3);
-    let value = |x: usize, y: usize| QUARTERS[2 * (2 * y / TEXELS) + 2 * x / TEXELS] as f32;
-    check.files.push((QUARTERS_FILE.to_owned(), hung::picture([TEXELS; 2], value)));
+    let check = Check::new(GROUP, name, about, scene).unit(AROUND_NITS).by(TECHNIQUES).effort(64, 5e-3);
+    let mut check = quarters(check);
     let side = SIDE as usize;
     // Without the pixels beside the edges, over which texels blend.
     let [first, second] = [[1, side / 2 - 1], [side / 2 + 1, side - 1]];
@@ -37,6 +35,14 @@ fn hangs(name: &str, about: &str, scene: impl Fn(String) -> [String; 3]) -> Chec
     ] {
         check = check.row(what, Quantity::Y, Some([x0, x1, y0, y1]), Target::Value(value, 0.0));
     }
+    check
+}
+
+/// With the file of the picture.
+pub fn quarters(mut check: Check) -> Check {
+    const TEXELS: usize = 64;
+    let value = |x: usize, y: usize| QUARTERS[2 * (2 * y / TEXELS) + 2 * x / TEXELS] as f32;
+    check.files.push((QUARTERS_FILE.to_owned(), hung::picture([TEXELS; 2], value)));
     check
 }
 
@@ -82,11 +88,11 @@ fn tilted() -> Check {
 }
 
 /// Surroundings of eight parts, by the signs of x, y and z: ⅛, and ⅛ more towards +x, ¼ towards +y, and ½ towards +z.
-fn part([x, y, z]: [bool; 3]) -> f64 {
+pub fn part([x, y, z]: [bool; 3]) -> f64 {
     0.125 * f64::from(1 + u8::from(x) + 2 * u8::from(y) + 4 * u8::from(z))
 }
 
-fn surroundings(mut check: Check) -> Check {
+pub fn surroundings(mut check: Check) -> Check {
     const SIZE: [usize; 2] = [512, 256];
     let value = |column: usize, row: usize| {
         let quarter = 4 * column / SIZE[0];
@@ -97,7 +103,7 @@ fn surroundings(mut check: Check) -> Check {
 }
 
 /// `<env_map>`.
-fn map() -> String {
+pub fn map() -> String {
     format!("<env_map><latlong><path>parts.exr</path><gain>{AROUND}</gain></latlong></env_map>")
 }
 
