@@ -123,7 +123,7 @@ fn frosted_pane() -> Check {
     // Metropolis sampling walks slowly here: too slowly for the samples of the others.
     let check = by_all_ways("frosted pane", "All light goes through a rough pane of coloured glass.", scene);
     let mut check = effort(check, 2 * SAMPLES);
-    check.longer = vec![(Renderer::PathMetropolis, 6)];
+    check.longer = vec![(Renderer::PathMetropolis, 6), (Renderer::PathHybrid, 3)];
     check
 }
 

@@ -19,6 +19,8 @@ pub enum Renderer {
     Mitsuba,
     /// Direct light by samples of its own, and the rest by Metropolis sampling, of paths alone.
     PathHybrid,
+    /// Nothing set: as the console renders a scene that says nothing, on two threads.
+    AsItComes,
 }
 
 /// Path tracing alone.
@@ -48,12 +50,19 @@ impl Renderer {
             Self::PathHybrid => "path, hybrid",
             Self::Hybrid => "bidirectional, hybrid",
             Self::Mitsuba => "Mitsuba 3",
+            Self::AsItComes => "as it comes",
         }
+    }
+
+    /// On how many threads: several pictures are rendered at once.
+    pub fn threads(self) -> u32 {
+        if self == Self::AsItComes { 2 } else { 1 }
     }
 
     /// Its part of a scene's settings.
     pub fn settings(self) -> String {
         let (bidirectional, metropolis, hybrid) = match self {
+            Self::AsItComes => return String::new(),
             Self::Path | Self::Mitsuba => (false, false, false),
             Self::Bidirectional => (true, false, false),
             Self::PathMetropolis => (false, true, false),
@@ -174,6 +183,8 @@ pub struct Check {
     pub quick: Demand,
     /// What the full form does.
     pub full: Demand,
+    /// What a luminance of 1 cd/m² is on a screen whose white is 1, where the codes of the PNG are to be judged.
+    pub screen: Option<f64>,
     /// Whether each part of the picture should have the value of the first row.
     pub is_flat: bool,
     /// Rendered in the full run only.
@@ -201,6 +212,7 @@ impl Check {
             longer: vec![],
             quick: Demand { samples: 256, resolution: 5e-3, blocks: 0.2 },
             full: Demand { samples: 256, resolution: 5e-3, blocks: 0.2 },
+            screen: None,
             is_flat: false,
             full_only: false,
         }
@@ -281,7 +293,7 @@ impl Check {
     pub fn comparisons(&self) -> usize {
         let against_first = usize::from(self.is_against_first());
         self.rows.len() * (self.renderers.len() - against_first)
-            + self.renderers.len() * usize::from(self.is_flat)
+            + self.renderers.len() * (usize::from(self.is_flat) + usize::from(self.screen.is_some()))
             + (self.renderers.len() - 1) * usize::from(self.compares_pictures())
     }
 

@@ -9,10 +9,11 @@ use std::time::{Duration, Instant};
 use exr::prelude::{FlatSamples, read_first_flat_layer_from_file};
 
 use super::check::{Area, Check, Form, Quantity, Renderer};
+use super::codes;
 use crate::{here, process};
 
 /// The settings that `text::settings` writes, in whose place a renderer's own stand.
-const TECHNIQUE: &str = "<metropolis>false</metropolis><bidirectional>false</bidirectional>";
+pub const TECHNIQUE: &str = "<metropolis>false</metropolis><bidirectional>false</bidirectional>";
 /// Rows of Rec. 709 (D65) to XYZ, as IEC 61966-2-1 derives them, to seven digits.
 pub const RGB_TO_XYZ: [[f64; 3]; 3] = [
     [0.412_390_8, 0.357_584_3, 0.180_480_8],
@@ -35,20 +36,9 @@ pub struct Picture {
 impl Picture {
     /// Reads an EXR file of linear Rec. 709.
     pub fn read(path: &Path) -> Result<Self, String> {
-        let fault = |why: &dyn std::fmt::Display| format!("{}: {why}", path.display());
-        let image = read_first_flat_layer_from_file(path).map_err(|error| fault(&error))?;
-        let layer = image.layer_data;
-        let channel = |name: &str| {
-            let found = layer.channel_data.list.iter().find(|channel| channel.name.to_string() == name);
-            match found.map(|channel| &channel.sample_data) {
-                Some(FlatSamples::F32(values)) => Ok(values),
-                _ => Err(fault(&format!("no channel {name} of 32-bit numbers"))),
-            }
-        };
-        let (r, g, b) = (channel("R")?, channel("G")?, channel("B")?);
-        let rgb = r.iter().zip(g).zip(b).map(|((r, g), b)| [*r, *g, *b].map(f64::from));
-        let pixels = rgb.map(|rgb| RGB_TO_XYZ.map(|row| (0..3).map(|c| row[c] * rgb[c]).sum())).collect();
-        Ok(Self { size: [layer.size.x(), layer.size.y()], pixels })
+        let (size, rgb) = read_rgb(path)?;
+        let to_xyz = |rgb: [f64; 3]| RGB_TO_XYZ.map(|row| (0..3).map(|c| row[c] * rgb[c]).sum());
+        Ok(Self { size, pixels: rgb.into_iter().map(to_xyz).collect() })
     }
 
     /// The same, if it has the size that a scene asks for: areas are of that.
@@ -81,6 +71,23 @@ impl Picture {
             Quantity::ZOverY => z / y,
         }
     }
+}
+
+/// Columns and rows, and the pixels, rows from the top, of an EXR file of linear Rec. 709.
+pub fn read_rgb(path: &Path) -> Result<([usize; 2], Vec<[f64; 3]>), String> {
+    let fault = |why: &dyn std::fmt::Display| format!("{}: {why}", path.display());
+    let image = read_first_flat_layer_from_file(path).map_err(|error| fault(&error))?;
+    let layer = image.layer_data;
+    let channel = |name: &str| {
+        let found = layer.channel_data.list.iter().find(|channel| channel.name.to_string() == name);
+        match found.map(|channel| &channel.sample_data) {
+            Some(FlatSamples::F32(values)) => Ok(values),
+            _ => Err(fault(&format!("no channel {name} of 32-bit numbers"))),
+        }
+    };
+    let (r, g, b) = (channel("R")?, channel("G")?, channel("B")?);
+    let rgb = r.iter().zip(g).zip(b).map(|((r, g), b)| [*r, *g, *b].map(f64::from));
+    Ok(([layer.size.x(), layer.size.y()], rgb.collect()))
 }
 
 /// The console, and where it may write.
@@ -141,12 +148,18 @@ pub type Rendered = Result<Vec<Series>, String>;
 pub struct Series {
     /// By seed.
     pub pictures: Vec<Picture>,
+    /// Codes of their PNGs that are not those of their luminances, if they are judged.
+    pub wrong_codes: usize,
     /// How long their renders took, added up; those that run at once hold one another up.
     pub seconds: f64,
 }
 
-/// A picture, and how many seconds it took.
-type Render = (Picture, f64);
+/// One picture.
+struct Render {
+    picture: Picture,
+    wrong_codes: usize,
+    seconds: f64,
+}
 
 /// One call of the console.
 struct Job<'a> {
@@ -214,7 +227,9 @@ impl Console {
                             println!("  {}, {}", job.check.name, job.renderer.name());
                         }
                         let start = Instant::now();
-                        let result = self.run(job).map(|picture| (picture, start.elapsed().as_secs_f64()));
+                        let result = self
+                            .run(job)
+                            .map(|render| Render { seconds: start.elapsed().as_secs_f64(), ..render });
                         done.lock().expect("no thread panics")[i] = Some(result);
                     }
                 });
@@ -225,8 +240,10 @@ impl Console {
             let count = if *renderer == Renderer::Mitsuba { 0 } else { form.seeds() };
             let of_renderer: Vec<_> = done.by_ref().take(count).collect();
             let renders: Vec<Render> = of_renderer.into_iter().collect::<Result<_, String>>()?;
-            let seconds = renders.iter().map(|(_, seconds)| seconds).sum();
-            Ok(Series { pictures: renders.into_iter().map(|(picture, _)| picture).collect(), seconds })
+            let seconds = renders.iter().map(|render| render.seconds).sum();
+            let wrong_codes = renders.iter().map(|render| render.wrong_codes).sum();
+            let pictures = renders.into_iter().map(|render| render.picture).collect();
+            Ok(Series { pictures, wrong_codes, seconds })
         };
         let of_check = |check: &Check| {
             // All are taken, even after one that failed.
@@ -245,7 +262,7 @@ impl Console {
             .map_err(|error| format!("{}: {error}", check.name))
     }
 
-    fn run(&self, job: &Job) -> Result<Picture, String> {
+    fn run(&self, job: &Job) -> Result<Render, String> {
         let stem = format!("{:?}_{}", job.renderer, job.seed).to_lowercase();
         let folder = self.folder_of(job.check);
         let picture = folder.join(format!("{stem}.png"));
@@ -259,7 +276,7 @@ impl Console {
             .args([
                 "-quiet",
                 "-t",
-                "1",
+                &job.renderer.threads().to_string(),
                 "-seed",
                 &seed.to_string(),
                 "-haltspp",
@@ -271,11 +288,15 @@ impl Console {
         let log = folder.join(format!("{stem}.log"));
         let fault = |why: String| format!("{}, {}: {why}", job.check.name, job.renderer.name());
         ended(&mut command, &log, LIMIT).map_err(fault)?;
-        let read =
-            Picture::read(&linear).and_then(|picture| picture.of_size(&job.check.scene)).map_err(fault);
+        let read = Picture::read(&linear).and_then(|picture| picture.of_size(&job.check.scene));
+        let wrong_codes = match job.check.screen {
+            Some(scale) => codes::wrong(&linear, &picture, scale),
+            None => Ok(0),
+        };
+        let render = read.and_then(|picture| Ok(Render { picture, wrong_codes: wrong_codes?, seconds: 0.0 }));
         // Thousands of them would fill folders that nobody looks at: the scenes stay.
         drop((std::fs::remove_file(&linear), std::fs::remove_file(&picture), std::fs::remove_file(&log)));
-        read
+        render.map_err(fault)
     }
 }
 

@@ -1,6 +1,7 @@
 //! Pictures for reports: tone-mapped, and maps of differences in standard errors.
 
 use super::check::Area;
+use super::codes;
 use super::console::Picture;
 use super::png;
 use super::statistics::Estimate;
@@ -21,9 +22,7 @@ fn linear([x, y, z]: [f64; 3]) -> [f64; 3] {
 }
 
 fn code(linear: f64) -> u8 {
-    let v = linear.clamp(0.0, 1.0);
-    let encoded = if v <= 0.003_130_8 { 12.92 * v } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 };
-    (255.0 * encoded).round() as u8
+    (255.0 * codes::encoded(linear.clamp(0.0, 1.0))).round() as u8
 }
 
 fn mean(pictures: &[Picture], i: usize) -> [f64; 3] {

@@ -196,25 +196,41 @@ impl Judge<'_> {
         .failing()
     }
 
-    /// Pixels that hold no numbers, which no mean of an area elsewhere would tell of.
-    fn broken_pixels(&self, renderer: Renderer, i: usize) -> Option<Verdict> {
-        let pixels = self.renders[i].iter().flat_map(|picture| &picture.pixels);
-        let broken = pixels.filter(|pixel| pixel.iter().any(|v| !v.is_finite())).count();
-        let none = Estimate::exact(0.0);
-        (broken > 0).then(|| Verdict {
+    /// What a screen would be sent.
+    pub fn codes(&self, renderer: Renderer, wrong: usize) -> Verdict {
+        self.counted(renderer, "sRGB codes that are not those of the luminances", wrong, "wrong codes")
+    }
+
+    /// Something of which there must be none.
+    fn counted(&self, renderer: Renderer, what: &str, count: usize, failure: &'static str) -> Verdict {
+        let is_wrong = count > 0;
+        let comparison = Comparison {
+            t: if is_wrong { f64::INFINITY } else { 0.0 },
+            error: 0.0,
+            freedom: 1.0,
+            p: if is_wrong { 0.0 } else { 1.0 },
+        };
+        Verdict {
             renderer,
-            what: "pixels that are no numbers".to_owned(),
+            what: what.to_owned(),
             area: None,
-            expected: none,
+            expected: Estimate::exact(0.0),
             is_bound: false,
-            measured: Estimate::exact(broken as f64),
-            comparison: Comparison { t: f64::INFINITY, error: 0.0, freedom: 1.0, p: 0.0 },
+            measured: Estimate::exact(count as f64),
+            comparison,
             allowance: 0.0,
             resolution: 0.0,
             demand: 0.0,
             threshold: self.threshold,
-            failure: Some("no number"),
-        })
+            failure: is_wrong.then_some(failure),
+        }
+    }
+
+    /// Pixels that hold no numbers, which no mean of an area elsewhere would tell of.
+    fn broken_pixels(&self, renderer: Renderer, i: usize) -> Option<Verdict> {
+        let pixels = self.renders[i].iter().flat_map(|picture| &picture.pixels);
+        let broken = pixels.filter(|pixel| pixel.iter().any(|v| !v.is_finite())).count();
+        (broken > 0).then(|| self.counted(renderer, "pixels that are no numbers", broken, "no number"))
     }
 }
 

@@ -5,6 +5,7 @@
 pub mod agreement;
 pub mod change;
 pub mod check;
+pub mod codes;
 pub mod console;
 pub mod cross;
 pub mod hung;
@@ -145,9 +146,13 @@ fn judged(check: Check, rendered: Rendered, form: Form, threshold: f64) -> Check
         Err(error) => (vec![], Some(error)),
     };
     let seconds = series.iter().map(|s| s.seconds).collect();
+    let wrong_codes: Vec<usize> = series.iter().map(|s| s.wrong_codes).collect();
     let renders: Vec<_> = series.into_iter().map(|s| s.pictures).collect();
     let judge = Judge { check: &check, demand, renders: &renders, threshold };
-    let verdicts = if broken.is_some() { vec![] } else { judge.verdicts() };
+    let mut verdicts = if broken.is_some() { vec![] } else { judge.verdicts() };
+    if check.screen.is_some() && broken.is_none() {
+        verdicts.extend(check.renderers.iter().zip(wrong_codes).map(|(who, wrong)| judge.codes(*who, wrong)));
+    }
     Checked { check, demand, renders, seconds, verdicts, broken }
 }
 

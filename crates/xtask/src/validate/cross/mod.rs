@@ -119,5 +119,5 @@ fn read(path: &Path, side: usize, seeds: usize) -> Result<Series, String> {
         return Err(format!("{}: {} pictures, expected {seeds}", path.display(), pictures.len()));
     }
     let pictures = pictures.map(|pixels| Picture { size: [side; 2], pixels: pixels.to_vec() }).collect();
-    Ok(Series { pictures, seconds })
+    Ok(Series { pictures, wrong_codes: 0, seconds })
 }

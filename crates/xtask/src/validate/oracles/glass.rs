@@ -2,8 +2,9 @@
 
 use super::super::change::changed;
 use super::super::check::{Check, PATH, TECHNIQUES, THREE};
-use super::super::shapes::{Mesh, model};
-use super::super::text::{background, basic, medium, specular, sphere, uniform};
+use super::super::hung;
+use super::super::shapes::{Mesh, mesh_light, model};
+use super::super::text::{background, basic, grey, medium, specular, sphere, uniform};
 use super::{AROUND, AROUND_NITS, in_even_light, integral, looking};
 
 const GROUP: &str = "Glass";
@@ -25,7 +26,57 @@ pub fn checks() -> Vec<Check> {
     let mut checks = mirrors();
     checks.extend(plates());
     checks.extend(absorbing_bodies());
+    checks.extend([[20, 10], [10, 20]].map(overlapping));
     checks
+}
+
+/// Indices and absorption coefficients of two bodies, and the depths from and to which each reaches.
+const BODIES: [(f64, f64, [f64; 2]); 2] = [(1.5, 4.0, [0.0, 0.10]), (1.33, 9.0, [0.06, 0.20])];
+
+/// Two wide slabs that overlap, before a lamp: where both are, the one of the higher precedence is, and the other begins behind it.
+fn overlapping(precedences: [u32; 2]) -> Check {
+    let slab = |i: usize| {
+        let (ior, absorption, [from, to]) = BODIES[i];
+        let name = format!("body{i}");
+        let wide = [300.0, 0.0, 0.0, 0.0, 0.5 * (to - from), 0.0, 0.0, 0.0, 300.0];
+        let mesh = Mesh::cube(1.0).placed(wide, 1.0, [0.0, 0.5 * (from + to), 0.0]);
+        medium(&name, precedences[i], &basic(ior, &uniform(absorption), ""))
+            + &specular(&name, &name)
+            + &mesh.text(&name, &name)
+            + &model(&name)
+    };
+    // The border of the two is that of the first one's back or of the second one's front.
+    let border = if precedences[0] > precedences[1] { BODIES[0].2[1] } else { BODIES[1].2[0] };
+    let value = through_two(border);
+    let lamp = Mesh::polygon(hung::corners([0.0, 30.0, 0.0], [0.0, -1.0, 0.0], 300.0).to_vec());
+    let lamp = lamp.text("lamp", "black") + &mesh_light("lamp", &uniform(AROUND), [0.0; 3], 1.0, "");
+    let parts = [slab(0), slab(1), grey("black", 0.0), lamp];
+    let scene = looking([0.0, -5.0, 0.0], [0.0, 1.0, 0.0], 1e-4, "", &parts);
+    let about = format!(
+        "Slabs of n = 1.5 and 1.33 that overlap by 4 cm of 20, of precedences {} and {}: their border is {border} m deep, and light passes \
+         both with all reflections between three surfaces, added one surface after another (Stokes 1862).",
+        precedences[0], precedences[1]
+    );
+    let name = format!("overlapping bodies of precedences {} and {}", precedences[0], precedences[1]);
+    Check::new(GROUP, name, about, scene).unit(AROUND_NITS).is(value, 0.0).by(PATH).effort(32, 1e-2)
+}
+
+/// The share of light along the normal that passes both bodies, whose border is at a depth.
+fn through_two(border: f64) -> f64 {
+    let [(n, first, _), (m, second, [_, end])] = BODIES;
+    let layers = [
+        (fresnel(1.0, n), first * border),
+        (fresnel(1.0, n / m), second * (end - border)),
+        (fresnel(1.0, m), 0.0),
+    ];
+    // Transmittance, and reflectance from behind, of what lies before; each surface adds itself and the way behind it.
+    let (through, _) = layers.iter().fold((1.0, 0.0), |(through, behind), (r, depth)| {
+        let between = 1.0 / (1.0 - behind * r);
+        let way = (-depth).exp();
+        let back = r + (1.0 - r).powi(2) * behind * between;
+        (through * (1.0 - r) * between * way, back * way * way)
+    });
+    through
 }
 
 /// Glass that lets nothing through shows Fresnel's reflectance.
@@ -127,6 +178,19 @@ fn absorbing_bodies() -> Vec<Check> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Two bodies of one index and coefficient are one, whose plate's formula is known; and the border matters.
+    #[test]
+    fn two_surfaces_make_a_plate() {
+        let [whole, part] = [0.10, 0.06].map(through_two);
+        assert!((whole / part - 1.0).abs() > 0.1, "{whole} {part}");
+        let two = |r: f64, way: f64| (1.0 - r).powi(2) * way / (1.0 - r * r * way * way);
+        let [r, border, last] = [fresnel(1.0, 1.5), fresnel(1.0, 1.5 / 1.33), fresnel(1.0, 1.33)];
+        // Without the light that comes back from the far end, which has passed the bodies twice more.
+        let least = (1.0 - r) * (1.0 - border) * (1.0 - last) * f64::exp(-0.4 - 0.9);
+        assert!(whole > least && whole < 1.02 * least, "{whole} {least}");
+        assert!((two(r, 1.0) - through_plate(1.0, 1.5, 0.0)).abs() < 1e-12);
+    }
 
     /// Against tables of nine digits, made independently.
     #[test]

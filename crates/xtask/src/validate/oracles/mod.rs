@@ -2,6 +2,7 @@
 
 mod camera;
 mod colour;
+mod defaults;
 mod direct;
 mod dispersion;
 mod frosted;
@@ -49,6 +50,7 @@ pub fn all() -> Vec<Check> {
         colour::checks(),
         lens::checks(),
         camera::checks(),
+        defaults::checks(),
         sky::checks(),
         orientation::checks(),
         reference::checks(),

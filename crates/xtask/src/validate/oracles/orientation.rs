@@ -16,7 +16,7 @@ pub fn checks() -> Vec<Check> {
 
 /// What the quarters of a picture have: upper left, upper right, lower left, lower right.
 pub const QUARTERS: [f64; 4] = [1.0, 0.7, 0.4, 0.15];
-pub const QUARTERS_FILE: &str = "quarters.exr";
+const QUARTERS_FILE: &str = "quarters.exr";
 
 /// Looks straight at a square on which that picture hangs, and sees nothing else.
 fn hangs(name: &str, about: &str, scene: impl Fn(String) -> [String; 3]) -> Check {
