@@ -13,7 +13,7 @@ use crate::Outcome;
 use crate::apt::Needed;
 use crate::process::{self, capture, cargo, command, root, target_dir};
 
-const USAGE: &str = "usage: cargo xtask counts [--update WHY] [KERNEL]";
+const USAGE: &str = "usage: cargo xtask counts [KERNEL | --update WHY [--drop KERNEL]...]";
 const VALGRIND: Needed =
     Needed { what: "for counting instructions valgrind is", program: "valgrind", packages: &["valgrind"] };
 /// What is on record.
@@ -27,35 +27,93 @@ const TOLERANCE: f64 = 0.02;
 /// Indigo is built otherwise. The ray kernel uses AVX2 all the same.
 const PROCESSOR: &str = "x86-64-v2";
 
+/// What is wanted.
+#[derive(Debug, PartialEq)]
+enum Task<'a> {
+    /// To compare all, or one.
+    Compare(Option<&'a str>),
+    /// To write down all, for a reason, without kernels that are on record and are no more.
+    Update(&'a str, Vec<&'a str>),
+}
+
+fn task(arguments: &[String]) -> Option<Task<'_>> {
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    match words[..] {
+        [] => Some(Task::Compare(None)),
+        [kernel] if !kernel.starts_with('-') => Some(Task::Compare(Some(kernel))),
+        ["--update", why, ref rest @ ..] if !why.trim().is_empty() => {
+            let (pairs, odd) = rest.as_chunks::<2>();
+            let is_right = odd.is_empty() && pairs.iter().all(|[flag, _]| *flag == "--drop");
+            is_right.then(|| Task::Update(why, pairs.iter().map(|[_, kernel]| *kernel).collect()))
+        }
+        _ => None,
+    }
+}
+
 /// Counts, and compares or writes down.
 ///
 /// # Errors
 /// What could not be built, counted, read or written; kernels whose counts are not those on record.
 pub fn run_command(arguments: &[String]) -> Outcome {
-    let (why, only) = match arguments {
-        [flag, why] if flag == "--update" && !why.trim().is_empty() => (Some(why), None),
-        [] => (None, None),
-        [kernel] if !kernel.starts_with('-') => (None, Some(kernel)),
-        _ => return Err(USAGE.into()),
-    };
+    if let Some(note) = judged(arguments)? {
+        println!("{note}");
+    }
+    Ok(())
+}
+
+/// The same; what was not judged, and why, is given back, so that it can be said where it is seen.
+///
+/// # Errors
+/// As those of [`run_command`].
+pub fn judged(arguments: &[String]) -> Result<Option<String>, String> {
+    let task = task(arguments).ok_or(USAGE)?;
     if !cfg!(all(target_os = "linux", target_arch = "x86_64")) {
-        println!("instructions are counted on x86-64 under Linux alone");
-        return Ok(());
+        return Ok(Some("instructions were not counted: that is done on x86-64 under Linux alone".into()));
     }
     VALGRIND.ensure()?;
     let program = build()?;
     let names = String::from_utf8_lossy(&capture(&mut command(&program, &[]))?).into_owned();
-    let wanted = names.lines().filter(|name| only.is_none_or(|only| only == name));
+    let only = if let Task::Compare(only) = task { only } else { None };
+    let wanted = names.lines().filter(|name| only.is_none_or(|only| only == *name));
     let counts: Vec<(String, u64)> =
         wanted.map(|name| Ok((name.to_owned(), count(&program, name)?))).collect::<Result<_, String>>()?;
+    if counts.is_empty() && only.is_some_and(|only| !can_run(only)) {
+        return Ok(Some("not counted, since this processor has no AVX2".into()));
+    }
     if counts.is_empty() {
         return Err(format!("no such kernel; there are:\n{names}"));
     }
     let record = root().join(RECORD);
-    match why {
-        Some(why) => write(&record, why, &counts),
-        None => compare(&read(&record)?, &counts, only.is_none()),
+    match task {
+        Task::Update(why, dropped) => {
+            let lost = lost(&read(&record)?, &counts, &dropped);
+            if !lost.is_empty() {
+                return Err(format!(
+                    "{} would be lost from the record: --drop KERNEL for each that is no more, or count where there are such kernels",
+                    lost.join(", ")
+                ));
+            }
+            write(&record, why, &counts).map(|()| None)
+        }
+        Task::Compare(_) => compare(&read(&record)?, &counts, only.is_none()),
     }
+}
+
+/// Kernels on record that were not counted, but for those that are meant to go.
+fn lost(record: &Record, counts: &[(String, u64)], dropped: &[&str]) -> Vec<String> {
+    let is_kept = |name: &&String| {
+        counts.iter().any(|(counted, _)| counted == *name) || dropped.contains(&name.as_str())
+    };
+    record.counts.keys().filter(|name| !is_kept(name)).cloned().collect()
+}
+
+/// Whether this processor can run a kernel: what needs AVX2 says so in its name.
+fn can_run(kernel: &str) -> bool {
+    #[cfg(target_arch = "x86_64")]
+    let has_avx2 = std::is_x86_feature_detected!("avx2");
+    #[cfg(not(target_arch = "x86_64"))]
+    let has_avx2 = false;
+    has_avx2 || !kernel.ends_with("_avx2")
 }
 
 /// Builds the kernels in a folder of their own, since they are built for another processor.
@@ -140,8 +198,8 @@ fn verdict(count: u64, on_record: Option<u64>) -> Verdict {
     }
 }
 
-/// Against the record, of which none may be missing where `are_all` are counted.
-fn compare(record: &Record, counts: &[(String, u64)], are_all: bool) -> Outcome {
+/// Against the record, of which none may be missing where `are_all` are counted. Gives back what was not judged.
+fn compare(record: &Record, counts: &[(String, u64)], are_all: bool) -> Result<Option<String>, String> {
     let mut others = vec![];
     println!("{:<26} {:>14} {:>14} {:>8}", "kernel", "instructions", "on record", "ratio");
     for (name, count) in counts {
@@ -157,17 +215,21 @@ fn compare(record: &Record, counts: &[(String, u64)], are_all: bool) -> Outcome 
             others.push(name.as_str());
         }
     }
-    let is_counted = |name: &&String| counts.iter().any(|(counted, _)| counted == *name);
-    if let Some(name) = record.counts.keys().find(|name| are_all && !is_counted(name)) {
-        return Err(format!("{name} is on record, and there is no such kernel"));
+    let missing = if are_all { lost(record, counts, &[]) } else { vec![] };
+    let (gone, skipped): (Vec<String>, Vec<String>) = missing.into_iter().partition(|name| can_run(name));
+    if !gone.is_empty() {
+        return Err(format!("{} on record, and there is no such kernel", gone.join(", ")));
     }
     let here = compiler()?;
     if here != record.compiler {
-        println!("not judged: the record is of {}, and this is {here}", record.compiler);
-        return Ok(());
+        return Ok(Some(format!(
+            "INSTRUCTIONS WERE NOT JUDGED: the record is of {}, and this is {here}; `cargo xtask counts --update \"why\"` makes it this one’s",
+            record.compiler
+        )));
     }
     if others.is_empty() {
-        return Ok(());
+        let note = || format!("not counted, since this processor has no AVX2: {}", skipped.join(", "));
+        return Ok((!skipped.is_empty()).then(note));
     }
     Err(format!(
         "not within {} percent of the record: {}; if this is meant, `cargo xtask counts --update \"why\"` writes a new one",
@@ -179,6 +241,26 @@ fn compare(record: &Record, counts: &[(String, u64)], are_all: bool) -> Outcome 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn no_kernel_is_lost_by_an_update_unless_it_is_named() {
+        let counts = [("a", 1), ("b", 2), ("c", 3)].map(|(name, n)| (name.to_owned(), json!(n)));
+        let record = Record { compiler: String::new(), counts: counts.into_iter().collect() };
+        let counted = [("a".to_owned(), 1)];
+        assert_eq!(lost(&record, &counted, &[]), ["b", "c"]);
+        assert_eq!(lost(&record, &counted, &["c"]), ["b"]);
+        assert!(can_run("rays_closest"));
+    }
+
+    #[test]
+    fn an_update_says_why_and_what_is_dropped() {
+        let of = |words: &[&str]| words.iter().map(|word| (*word).to_owned()).collect::<Vec<String>>();
+        let update = of(&["--update", "fewer boxes", "--drop", "old"]);
+        assert_eq!(task(&update), Some(Task::Update("fewer boxes", vec!["old"])));
+        for wrong in [&["--update"][..], &["--update", " "], &["--update", "why", "--drop"], &["--all"]] {
+            assert_eq!(task(&of(wrong)), None);
+        }
+    }
 
     #[test]
     fn the_sum_is_read() {
