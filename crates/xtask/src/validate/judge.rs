@@ -12,6 +12,34 @@ const ROUNDING: f64 = 1e-5;
 /// Blocks along a side of a picture.
 pub const BLOCKS: usize = 4;
 
+/// Why a comparison fails.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Failure {
+    /// Something that is no number.
+    NoNumber,
+    /// More than noise explains.
+    Deviates,
+    /// Noise hides what must be seen.
+    Unresolved,
+    /// Renderers agree on nothing.
+    NoLight,
+    /// A screen would get other codes.
+    WrongCodes,
+}
+
+impl Failure {
+    /// In a word or two.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::NoNumber => "no number",
+            Self::Deviates => "deviates",
+            Self::Unresolved => "unresolved",
+            Self::NoLight => "no light",
+            Self::WrongCodes => "wrong codes",
+        }
+    }
+}
+
 /// What one comparison said.
 #[derive(Clone, Debug)]
 pub struct Verdict {
@@ -38,7 +66,7 @@ pub struct Verdict {
     /// The p-value below which it fails.
     pub threshold: f64,
     /// Why it failed, if it did.
-    pub failure: Option<&'static str>,
+    pub failure: Option<Failure>,
 }
 
 impl Verdict {
@@ -46,11 +74,11 @@ impl Verdict {
     #[must_use]
     pub fn failing(mut self) -> Self {
         self.failure = if !self.measured.mean.is_finite() {
-            Some("no number")
+            Some(Failure::NoNumber)
         } else if self.comparison.p < self.threshold {
-            Some("deviates")
+            Some(Failure::Deviates)
         } else if self.resolution > self.demand {
-            Some("unresolved")
+            Some(Failure::Unresolved)
         } else {
             None
         };
@@ -114,7 +142,8 @@ impl Judge<'_> {
             }
         };
         let is_bound = matches!(row.target, Target::AtMost(_));
-        let (comparison, allowance) = compared(&measured, &expected, uncertainty, is_bound);
+        let Beside { measured, expected, comparison, allowance } =
+            Beside::of(measured, expected, uncertainty, is_bound);
         // What is granted is not noticed.
         let noise = quantile(self.threshold, comparison.freedom) * comparison.error;
         let verdict = Verdict {
@@ -134,7 +163,7 @@ impl Judge<'_> {
         .failing();
         // Renderers that agree on nothing at all have shown nothing.
         let is_dark = matches!(row.target, Target::First(_)) && !shines(&verdict.expected, self.threshold);
-        Verdict { failure: verdict.failure.or(is_dark.then_some("no light")), ..verdict }
+        Verdict { failure: verdict.failure.or(is_dark.then_some(Failure::NoLight)), ..verdict }
     }
 
     /// Each block of a picture that should have one value everywhere.
@@ -163,20 +192,20 @@ impl Judge<'_> {
         expected: impl Fn(Area, usize) -> Estimate,
         is_bound: bool,
     ) -> Verdict {
-        let mut worst: Option<(Estimate, Estimate, Comparison, f64)> = None;
+        let mut worst: Option<Beside> = None;
         let mut errors = vec![];
         for area in areas(self.renders[i][0].size) {
             for c in 0..3 {
-                let (a, b) = (self.block(&self.renders[i], area, c), expected(area, c));
-                let (comparison, allowance) = compared(&a, &b, 0.0, is_bound);
-                errors.push(comparison.error / scale(&b, self.check.unit));
-                if worst.as_ref().is_none_or(|(.., w, _)| comparison.p < w.p) {
-                    worst = Some((a, b, comparison, allowance));
+                let own = self.block(&self.renders[i], area, c);
+                let beside = Beside::of(own, expected(area, c), 0.0, is_bound);
+                errors.push(beside.comparison.error / scale(&beside.expected, self.check.unit));
+                if worst.as_ref().is_none_or(|worst| beside.comparison.p < worst.comparison.p) {
+                    worst = Some(beside);
                 }
             }
         }
         let tests = errors.len();
-        let (measured, expected, mut comparison, allowance) = worst.expect("there are blocks");
+        let Beside { measured, expected, mut comparison, allowance } = worst.expect("there are blocks");
         comparison.p = -((-comparison.p).ln_1p() * tests as f64).exp_m1();
         errors.sort_by(f64::total_cmp);
         Verdict {
@@ -198,11 +227,11 @@ impl Judge<'_> {
 
     /// What a screen would be sent.
     pub fn codes(&self, renderer: Renderer, wrong: usize) -> Verdict {
-        self.counted(renderer, "sRGB codes that are not those of the luminances", wrong, "wrong codes")
+        self.counted(renderer, "sRGB codes that are not those of the luminances", wrong, Failure::WrongCodes)
     }
 
     /// Something of which there must be none.
-    fn counted(&self, renderer: Renderer, what: &str, count: usize, failure: &'static str) -> Verdict {
+    fn counted(&self, renderer: Renderer, what: &str, count: usize, failure: Failure) -> Verdict {
         let is_wrong = count > 0;
         let comparison = Comparison {
             t: if is_wrong { f64::INFINITY } else { 0.0 },
@@ -230,7 +259,7 @@ impl Judge<'_> {
     fn broken_pixels(&self, renderer: Renderer, i: usize) -> Option<Verdict> {
         let pixels = self.renders[i].iter().flat_map(|picture| &picture.pixels);
         let broken = pixels.filter(|pixel| pixel.iter().any(|v| !v.is_finite())).count();
-        (broken > 0).then(|| self.counted(renderer, "pixels that are no numbers", broken, "no number"))
+        (broken > 0).then(|| self.counted(renderer, "pixels that are no numbers", broken, Failure::NoNumber))
     }
 }
 
@@ -245,14 +274,24 @@ fn shines(estimate: &Estimate, threshold: f64) -> bool {
     estimate.mean > quantile(threshold, freedom as f64) * estimate.error
 }
 
-/// How surprising a number is beside another, and what was granted.
-fn compared(measured: &Estimate, expected: &Estimate, uncertainty: f64, is_bound: bool) -> (Comparison, f64) {
-    let allowance = uncertainty + ROUNDING * expected.mean.abs().max(measured.mean.abs());
-    let mut comparison = Comparison::of(measured, expected, allowance);
-    if is_bound && measured.mean <= expected.mean {
-        comparison = Comparison { t: comparison.t.min(0.0), p: 1.0, ..comparison };
+/// A number beside another.
+struct Beside {
+    measured: Estimate,
+    expected: Estimate,
+    comparison: Comparison,
+    /// What was granted.
+    allowance: f64,
+}
+
+impl Beside {
+    fn of(measured: Estimate, expected: Estimate, uncertainty: f64, is_bound: bool) -> Self {
+        let allowance = uncertainty + ROUNDING * expected.mean.abs().max(measured.mean.abs());
+        let mut comparison = Comparison::of(&measured, &expected, allowance);
+        if is_bound && measured.mean <= expected.mean {
+            comparison = Comparison { t: comparison.t.min(0.0), p: 1.0, ..comparison };
+        }
+        Self { measured, expected, comparison, allowance }
     }
-    (comparison, allowance)
 }
 
 /// Columns and rows of the blocks of a picture.

@@ -222,7 +222,7 @@ mod tests {
             let verdicts = verdicts(&check, &[pictures(value), pictures(value)]);
             verdicts.into_iter().filter_map(|verdict| verdict.failure).collect::<Vec<_>>()
         };
-        assert_eq!(failures(0.0), ["no light"]);
+        assert_eq!(failures(0.0), [judge::Failure::NoLight]);
         assert!(failures(2.0).is_empty());
         let noise =
             |seed: usize| Picture { size: [1, 1], pixels: vec![[f64::from(seed as u32 % 2) - 0.4; 3]] };
@@ -261,7 +261,7 @@ mod tests {
         assert!(verdicts(&check, &[renders.clone()]).iter().all(|v| v.failure.is_none()));
         renders[3].pixels[63] = [1.0, f64::NAN, 1.0];
         let verdicts = verdicts(&check, &[renders]);
-        assert_eq!(verdicts.iter().filter(|v| v.failure == Some("no number")).count(), 1);
+        assert_eq!(verdicts.iter().filter(|v| v.failure == Some(judge::Failure::NoNumber)).count(), 1);
     }
 
     #[test]
@@ -269,7 +269,7 @@ mod tests {
         let scene = text::scene_file(&[text::settings(8, "")]);
         let check = Check::new("g", "n", "", scene).is(2.0, 0.0).by(check::PATH);
         let noisy = (0..16).map(|s| Picture { size: [1, 1], pixels: vec![[f64::from(s % 5); 3]] }).collect();
-        assert_eq!(verdicts(&check, &[noisy])[0].failure, Some("unresolved"));
+        assert_eq!(verdicts(&check, &[noisy])[0].failure, Some(judge::Failure::Unresolved));
         assert_ne!(Renderer::Path.settings(), Renderer::Hybrid.settings());
     }
 }

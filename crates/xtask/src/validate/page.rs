@@ -196,7 +196,7 @@ fn row(verdict: &Verdict, name: &str) -> String {
     };
     let said = match &verdict.failure {
         None => "<span class=\"verdict pass\">pass</span>".to_owned(),
-        Some(reason) => format!("<span class=\"verdict fail\">{reason}</span>"),
+        Some(reason) => format!("<span class=\"verdict fail\">{}</span>", reason.words()),
     };
     format!(
         "<tr><td>{}</td><td>{}</td><td class=\"number\">{must}</td><td class=\"number\">{} <small>± {}</small></td>\

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 use super::check::{Check, Demand, Form, Target};
 use super::console::Picture;
-use super::judge::Verdict;
+use super::judge::{Failure, Verdict};
 use super::page;
 use super::statistics::Estimate;
 
@@ -168,7 +168,7 @@ impl Report {
                 "threshold": v.threshold,
                 "resolution": v.resolution,
                 "demand": v.demand,
-                "failure": v.failure,
+                "failure": v.failure.map(Failure::words),
             })
         };
         let check = |c: &Checked| {
@@ -221,7 +221,7 @@ fn sentence(check: &Check, verdict: &Verdict) -> String {
         _ if verdict.is_bound => "at most",
         _ => "expected",
     };
-    let reason = verdict.failure.unwrap_or("agrees");
+    let reason = verdict.failure.map_or("agrees", Failure::words);
     let (t, p) = (verdict.comparison.t, verdict.comparison.p);
     let percent = 100.0 * (m.mean / e.mean - 1.0);
     let _ = write!(

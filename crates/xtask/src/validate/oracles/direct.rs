@@ -77,19 +77,17 @@ pub fn checks() -> Vec<Check> {
         ),
     ];
     let radiance = RADIANCE * NITS_PER_UNIFORM;
-    for (size, [x, y]) in
+    for (i, (size, [x, y])) in
         [([1.0, 1.0, 1.0], [0.0, 0.0]), ([2.0, 1.0, 0.5], [0.3, 0.2]), ([2.0, 1.0, 0.5], [2.0, 0.0])]
+            .into_iter()
+            .enumerate()
     {
         let name = format!("rectangle {} × {} m, {} m above ({x}, {y})", size[0], size[1], size[2]);
         let about =
             "Lambert's ½ Σ θ (n · Γ) over the edges of a rectangle, mean over the patch that is seen.";
-        checks.push(floor(
-            &name,
-            about,
-            &rectangle(size),
-            [x, y, 0.0],
-            under(rectangle_mesh(size), radiance),
-        ));
+        let under = under(rectangle_mesh(size), radiance);
+        let check = floor(&name, about, &rectangle(size), [x, y, 0.0], under);
+        checks.push(if i == 0 { check.by(THREE) } else { by_techniques(check) });
     }
     for (radius, above, aside) in [(0.5, 1.0, 0.0), (0.5, 1.0, 0.5), (1.0, 1.0, 2.0)] {
         let disc = Mesh::disc(radius, 400);
@@ -99,13 +97,13 @@ pub fn checks() -> Vec<Check> {
             + &mesh_light("disc", &uniform(RADIANCE), place, 1.0, "");
         let about =
             "Lambert's sum over the edges of a disc of 400 corners, mean over the patch that is seen.";
-        checks.push(floor(
+        checks.push(by_techniques(floor(
             &format!("disc, radius {radius} m, {aside} m aside"),
             about,
             &lamp,
             [0.0, aside, 0.0],
             under(disc.placed(UPRIGHT, 1.0, place), radiance),
-        ));
+        )));
     }
     let ball = Mesh::ball(3);
     let placed = ball.placed(UPRIGHT, 0.3, [0.3, -0.2, 1.5]);
@@ -113,23 +111,21 @@ pub fn checks() -> Vec<Check> {
         + &ball.text("ball", "lamp")
         + &mesh_light("ball", &uniform(RADIANCE), [0.3, -0.2, 1.5], 0.3, "");
     let about = "Lambert's sum over the edges of each triangle that shows its front, mean over the patch that is seen.";
-    checks.push(
-        floor("ball of 512 triangles", about, &lamp, [0.0; 3], under(placed, radiance)).effort(1024, 1e-2),
-    );
+    let ball = floor("ball of 512 triangles", about, &lamp, [0.0; 3], under(placed, radiance));
+    checks.push(by_techniques(ball.effort(1024, 1e-2)));
     let both = manual_lamp() + &changed(&manual_lamp(), "0 0 1.9", "1 1 1.9");
     let about = "Light adds up: 153.7376 lx + 63.9058 lx.";
     let under_both = |p: Point| under_manual()(p) + under_manual()(sub(p, [1.0, 1.0, 0.0]));
-    checks.push(floor("two lamps", about, &both, [1.0, 1.0, 0.0], under_both).by(TECHNIQUES));
-    checks.extend([[0.0, 0.0], [1.5, 0.4]].map(portal));
-    // Metropolis sampling gains nothing from more shapes of the same lamp.
-    for (i, check) in checks.iter_mut().enumerate() {
-        let renderers = if i < 4 { THREE } else { TECHNIQUES };
-        check.renderers = renderers.to_vec();
-        if i >= 4 {
-            check.quick.samples /= 4;
-        }
-    }
+    checks.push(by_techniques(floor("two lamps", about, &both, [1.0, 1.0, 0.0], under_both)));
+    checks.extend([[0.0, 0.0], [1.5, 0.4]].map(|target| by_techniques(portal(target))));
     checks
+}
+
+/// Without Metropolis sampling, which gains nothing from more shapes of the same lamp, and with fewer samples in the quick form.
+fn by_techniques(check: Check) -> Check {
+    let mut check = check.by(TECHNIQUES);
+    check.quick.samples /= 4;
+    check
 }
 
 /// A black room of which the ceiling has an opening, covered by a portal, under even light.

@@ -8,7 +8,7 @@ use super::super::hung;
 use super::super::shapes::{Mesh, Point, mesh_light, model, sub};
 use super::super::text::{grey, sphere, uniform};
 use super::patch::{TANGENT, patch_mean, seen_from};
-use super::{NITS_PER_UNIFORM, integral, looking};
+use super::{NITS_PER_UNIFORM, integral, looking, strip};
 
 const GROUP: &str = "Lamps by a file";
 /// Albedo of what is lit.
@@ -178,14 +178,13 @@ fn picture([x, y]: [f64; 2]) -> Check {
         let (i, beyond) = (at as usize, at.fract());
         texel(i) * (1.0 - beyond) + texel(i + 1) * beyond
     };
-    // The integral of 1 / (a + y²)² up to y: a strip of the lamp at a distance whose square is a, 1 m above.
-    let up_to = |a: f64, y: f64| 0.5 / a * (y / (a + y * y) + (y / a.sqrt()).atan() / a.sqrt());
     let lux = |[x, y, _]: Point| {
-        let strip = |p: f64| {
+        // A strip of the lamp at a distance whose square is a, 1 m above.
+        let of_strip = |p: f64| {
             let a = 1.0 + (p - x) * (p - x);
-            shade(p) * (up_to(a, 1.0 - y) - up_to(a, -1.0 - y))
+            shade(p) * (strip(a, 1.0 - y) - strip(a, -1.0 - y))
         };
-        integral(-1.0, 1.0, 20_000, strip)
+        integral(-1.0, 1.0, 20_000, of_strip)
     };
     let target = [x, y, 0.0];
     let value = ALBEDO / PI * RADIANCE * NITS_PER_UNIFORM * patch_mean(target, lux);

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::super::change::with_lens;
 use super::super::check::{Area, Check, Quantity, TECHNIQUES, Target};
 use super::super::text::{ONE_PIXEL, background, camera, scene_file, settings, uniform};
-use super::{AROUND, AROUND_NITS, SIDE, integral, looking};
+use super::{AROUND, AROUND_NITS, SIDE, integral, looking, strip};
 
 const GROUP: &str = "Lens";
 
@@ -82,12 +82,9 @@ fn vignetted(name: &str, radius: f64) -> Check {
 /// Mean of cos⁴ of the angle to the axis over an area of a picture that sees a width of ±`tangent`.
 pub fn mean_fall_off(area: Area, tangent: f64) -> f64 {
     let [x0, x1, y0, y1] = area.map(|i| tangent * (2.0 * i as f64 / f64::from(SIDE) - 1.0));
-    // ∫ dx / (1 + x² + y²)², from the axis to x at a height y, in closed form; over y by quadrature.
-    let up_to = |x: f64, y: f64| {
-        let a = 1.0 + y * y;
-        0.5 / a * (x / (a + x * x) + (x / a.sqrt()).atan() / a.sqrt())
-    };
-    integral(y0, y1, 2000, |y| up_to(x1, y) - up_to(x0, y)) / ((x1 - x0) * (y1 - y0))
+    // Of 1 / (1 + x² + y²)²: along x in closed form, over y by quadrature.
+    let across = |y: f64| strip(1.0 + y * y, x1) - strip(1.0 + y * y, x0);
+    integral(y0, y1, 2000, across) / ((x1 - x0) * (y1 - y0))
 }
 
 /// Share of a disc that a square round its middle covers, where the square's corners reach out of it.

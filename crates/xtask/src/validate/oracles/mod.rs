@@ -20,7 +20,7 @@ mod sky;
 
 use super::check::Check;
 use super::shapes::Point;
-use super::text::{ONE_PIXEL, background, flat_camera, scene_file, settings, uniform};
+use super::text::{ONE_PIXEL, background, flat_camera, scene_file, settings, sphere, uniform};
 pub use metal::constant_nk;
 
 /// Luminance of spectral radiance 1 W m^-3 sr^-1 at all wavelengths, cd/m²: 683.002 · 1e-9 · ∫ȳ dλ,
@@ -82,4 +82,22 @@ pub fn material(name: &str, kind: &str) -> String {
 fn integral(from: f64, to: f64, steps: u32, f: impl Fn(f64) -> f64) -> f64 {
     let h = (to - from) / f64::from(steps);
     (0..steps).map(|i| f(from + (f64::from(i) + 0.5) * h)).sum::<f64>() * h
+}
+
+/// ∫ dx / (a + x²)² from 0 to x.
+fn strip(a: f64, x: f64) -> f64 {
+    0.5 / a * (x / (a + x * x) + (x / a.sqrt()).atan() / a.sqrt())
+}
+
+/// A ball "m" of a mirroring kind in even light, from so far away that rays are parallel; and the mean of the picture, of which the disc has
+/// 2 ∫ R(c) c dc by the reflectance at a cosine and covers π/16.
+fn distant_ball(material: String, reflectance: impl Fn(f64) -> f64) -> (String, f64) {
+    let scene = in_even_light([0.0, -1000.0, 0.0], 2e-3, &[material, sphere([0.0; 3], 1.0, "m")]);
+    let share = std::f64::consts::PI / 16.0;
+    (scene, 1.0 - share + share * disc_mean(reflectance))
+}
+
+/// The mean over the disc of a mirroring ball.
+fn disc_mean(reflectance: impl Fn(f64) -> f64) -> f64 {
+    integral(0.0, 1.0, 100_000, |c| 2.0 * reflectance(c) * c)
 }
