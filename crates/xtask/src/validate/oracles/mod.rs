@@ -2,6 +2,8 @@
 
 mod camera;
 mod colour;
+#[cfg(test)]
+mod daylight;
 mod defaults;
 mod direct;
 mod dispersion;
