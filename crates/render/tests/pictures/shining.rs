@@ -34,4 +34,10 @@ fn surfaces_add_what_they_emit() {
         emission()
     );
     assert_shines("a thin sheet", &thin, 0.5 * 0.4 + 0.5 * 0.8);
+    // A coat of the index of air is not to be seen.
+    let coat = format!(
+        "<coating><substrate_material_name>below</substrate_material_name><ior>1</ior>{}</coating>",
+        emission()
+    );
+    assert_shines("a coat", &coat, 0.4);
 }

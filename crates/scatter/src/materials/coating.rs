@@ -8,7 +8,10 @@
 //! With `interference` over a metal of measured indices it is a film as even as the metal's own facets: light that is reflected
 //! above and below it interferes, which makes the colours of anodised and tempered metals.
 
-use super::fields::{BUMP, BUMP_MAP, FRESNEL_SCALE_PARAMETER, ROUGHNESS, ROUGHNESS_MAP, ROUGHNESS_PARAMETER};
+use super::fields::{
+    BASE_EMISSION, BASE_EMISSION_PARAMETER, BUMP, BUMP_MAP, EMISSION, EMISSION_PARAMETER, EMISSION_TEXTURE,
+    FRESNEL_SCALE_PARAMETER, LAYER, ROUGHNESS, ROUGHNESS_MAP, ROUGHNESS_PARAMETER,
+};
 use super::phong::{Film, Phong};
 use super::{Material, MaterialResources, Surface};
 use indigo_decl::{Block, Field, Kind, Later, Node, Parameter, Presence, Range, StandIn, codes};
@@ -22,7 +25,8 @@ use indigo_texture::TextureId;
 pub static BLOCK: Block = Block::new(
     "coating",
     "A thin coat over another material, of version 3.0. It is rendered over a `diffuse` material and, with `interference`, over \
-     a `phong` of `nk_data`; any other stands in without its coat, with a warning.",
+     a `phong` of `nk_data`; any other stands in without its coat, with a warning. It shines by its \
+     own emission, or else by that of the material below.",
     &[
         Field::new(
             "substrate_material_name",
@@ -67,6 +71,10 @@ pub static BLOCK: Block = Block::new(
              warning.",
         ),
         BUMP_MAP,
+        BASE_EMISSION,
+        EMISSION,
+        EMISSION_TEXTURE,
+        LAYER,
     ],
 )
 .with_parameters(&[
@@ -88,6 +96,8 @@ pub static BLOCK: Block = Block::new(
     },
     Parameter { name: "ior", since: "3.0", constant: "ior", texture: "", stand_in: StandIn::Text("1.5") },
     BUMP,
+    BASE_EMISSION_PARAMETER,
+    EMISSION_PARAMETER,
 ])
 .with_later(&[Later::new("displacement", "1.1").instead("is left out: the surface stays where its mesh is")])
 .with_example(

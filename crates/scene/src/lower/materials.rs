@@ -150,8 +150,7 @@ impl<'a> MaterialTable<'a> {
     pub(super) fn emission(&mut self, name: &str, sink: &mut Sink) -> Option<&Emission<'a>> {
         let name = self.names.meant(name).to_owned();
         if !self.emissions.contains_key(&name) {
-            let kind = self.kind_that_counts(&name);
-            let emission = kind.and_then(|kind| Emission::of(kind, &self.layers, sink));
+            let emission = self.find_emission(&name, sink);
             self.emissions.insert(name.clone(), emission);
         }
         self.emissions.get(&name)?.as_ref()
@@ -167,18 +166,36 @@ impl<'a> MaterialTable<'a> {
         &self.layers
     }
 
-    /// The kind of a material, or of the one that stands in for it.
-    fn kind_that_counts(&self, name: &str) -> Option<&'a Node> {
+    /// What a material emits itself, or else the one that stands in for it or is below it.
+    fn find_emission(&self, name: &str, sink: &mut Sink) -> Option<Emission<'a>> {
         let mut kind = self.names.get(name)?.alternative()?;
         let mut seen = HashSet::new();
-        while let Some(other) = shining_part(kind) {
-            // Materials that lead back to themselves are reported elsewhere.
-            if !seen.insert(self.names.meant(&other.value).to_owned()) {
-                break;
+        loop {
+            let own = Emission::of(kind, &self.layers, sink);
+            let part = shining_part(kind);
+            if own.is_some() {
+                if let Some(below) = &part {
+                    self.report_hidden_emission(below, sink);
+                }
+                return own;
             }
-            kind = self.names.get(&other.value)?.alternative()?;
+            let part = part?;
+            // Materials that lead back to themselves are reported elsewhere.
+            if !seen.insert(self.names.meant(&part.value).to_owned()) {
+                return None;
+            }
+            kind = self.names.get(&part.value)?.alternative()?;
         }
-        Some(kind)
+    }
+
+    /// Tells of light from below something that shines by itself.
+    fn report_hidden_emission(&self, below: &Spanned<String>, sink: &mut Sink) {
+        // What is wrong with it is told with the material.
+        let emission = |kind| Emission::of(kind, &self.layers, &mut Sink::new());
+        if self.kind_of(&below.value).and_then(emission).is_some() {
+            let message = format!("{} gives no light: the coat over it shines by itself", below.value);
+            sink.push(Diagnostic::warning(codes::NOT_EMITTING, below.span, message));
+        }
     }
 
     /// The kind of a material by name, whether anything is made of it or not; nothing is reported.

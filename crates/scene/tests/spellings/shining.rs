@@ -51,3 +51,20 @@ fn thin_sheets_shine_as_other_materials_do() {
         )
     });
 }
+
+#[test]
+fn coats_shine_by_themselves_or_by_what_is_below() {
+    let coat = |below: &str, emission: &str| {
+        format!("<coating><substrate_material_name>{below}</substrate_material_name>{emission}</coating>")
+    };
+    assert_shines(&|emission| coat("n", emission));
+    let base =
+        |value: u32| format!("<base_emission><uniform><value>{value}</value></uniform></base_emission>");
+    let lit = material("lit", &GREY.replace("</diffuse>", &format!("{}</diffuse>", base(5))));
+    let over = |emission: &str| of(&coat("lit", emission)) + &lit;
+    let of_coat = |value| lights(&of(&coat("n", &base(value))));
+    assert_eq!(lights(&over("")), of_coat(5));
+    assert_eq!(lights(&over(&base(0))), of_coat(5));
+    let both = scene_with(&over(&base(7)), &["W0319 lit gives no light: the coat over it shines by itself"]);
+    assert_eq!(format!("{:?}", both.lights), of_coat(7));
+}
