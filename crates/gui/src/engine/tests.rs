@@ -1,5 +1,7 @@
 //! The engine as the window has it, without a window.
 
+mod ends;
+
 use super::{Command, Engine, Phase, Request, Update, load};
 use crate::part::Part;
 use crate::recent::Recent;
@@ -41,22 +43,44 @@ const SCENE: &str = r#"<?xml version="1.0" encoding="utf-8"?>
 </scene>
 "#;
 
-/// A scene of a million triangles in a folder of its own.
-struct LargeScene(PathBuf);
+/// The same scene without the mesh: nothing but even light.
+fn even_light() -> String {
+    let (start, end) = (SCENE.find("<mesh>").expect("a mesh"), SCENE.find("</scene>").expect("an end"));
+    format!("{}{}", &SCENE[..start], &SCENE[end..])
+}
 
-impl LargeScene {
-    fn write(name: &str) -> Self {
+/// A folder of a test's own.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
         let folder = std::env::temp_dir().join(format!("indigo-engine-{}-{name}", std::process::id()));
+        drop(std::fs::remove_dir_all(&folder));
         std::fs::create_dir_all(&folder).expect("a folder for the test");
-        std::fs::write(folder.join("scene.igs"), SCENE).expect("the scene is written");
-        write_sheet(&folder.join("sheet.ply")).expect("the mesh is written");
         Self(folder)
     }
 
+    /// With a scene of a million triangles.
+    fn with_large_scene(name: &str) -> Self {
+        let folder = Self::new(name);
+        folder.write("scene.igs", SCENE);
+        write_sheet(&folder.0.join("sheet.ply")).expect("the mesh is written");
+        folder
+    }
+
+    fn path(&self, name: &str) -> String {
+        self.0.join(name).display().to_string()
+    }
+
+    fn write(&self, name: &str, text: &str) {
+        std::fs::write(self.0.join(name), text).expect("a scene is written");
+    }
+
+    /// The request for `scene.igs`.
     fn request(&self) -> Request {
         let arguments = Arguments::default();
         Request {
-            path: self.0.join("scene.igs").display().to_string(),
+            path: self.path("scene.igs"),
             part: Part::of(&arguments),
             arguments,
             film: None,
@@ -67,7 +91,7 @@ impl LargeScene {
     }
 }
 
-impl Drop for LargeScene {
+impl Drop for Folder {
     fn drop(&mut self) {
         // Left for the system to clear away, at worst.
         drop(std::fs::remove_dir_all(&self.0));
@@ -121,7 +145,7 @@ fn wait_for<T>(engine: &Engine, what: &str, mut find: impl FnMut(Update) -> Opti
 
 #[test]
 fn loading_a_million_triangles_ends_when_it_is_cancelled() {
-    let scene = LargeScene::write("stopped");
+    let scene = Folder::with_large_scene("stopped");
     let (give, take) = channel();
     let stop = Stop::default();
     load::spawn(7, scene.request(), stop.clone(), give).expect("a thread");
@@ -132,7 +156,7 @@ fn loading_a_million_triangles_ends_when_it_is_cancelled() {
 
 #[test]
 fn the_engine_listens_while_a_million_triangles_are_loaded() {
-    let scene = LargeScene::write("listens");
+    let scene = Folder::with_large_scene("listens");
     let engine = Engine::new(&Context::default()).expect("threads");
     let is_phase = |wanted: Phase| {
         move |update: Update| matches!(update, Update::Phase(phase) if phase == wanted).then_some(())
@@ -171,14 +195,11 @@ fn load_into(state: &mut State, engine: &Engine, request: Request) {
 /// that cannot be loaded changes nothing of the one that is open.
 #[test]
 fn what_is_loaded_once_more_is_as_it_was_unless_its_files_changed() {
-    let folder = std::env::temp_dir().join(format!("indigo-engine-{}-again", std::process::id()));
-    std::fs::create_dir_all(&folder).expect("a folder for the test");
-    let (start, end) = (SCENE.find("<mesh>").expect("a mesh"), SCENE.find("</scene>").expect("an end"));
-    let scene = format!("{}{}", &SCENE[..start], &SCENE[end..]);
-    let path = |name: &str| folder.join(name).display().to_string();
-    let write = |name: &str, text: &str| std::fs::write(path(name), text).expect("a scene is written");
-    write("a.igs", &scene);
-    write("broken.igs", "<scene><camera></scene>");
+    let folder = Folder::new("again");
+    let scene = even_light();
+    let path = |name: &str| folder.path(name);
+    folder.write("a.igs", &scene);
+    folder.write("broken.igs", "<scene><camera></scene>");
 
     let engine = Engine::new(&Context::default()).expect("threads");
     let mut state = State::new(Arguments::default(), Recent::default());
@@ -216,7 +237,7 @@ fn what_is_loaded_once_more_is_as_it_was_unless_its_files_changed() {
 
     // Its files say something else of the picture and of when to halt.
     let settings = "<halt_samples_per_pixel>9</halt_samples_per_pixel></renderer_settings>";
-    write(
+    folder.write(
         "a.igs",
         &scene.replace("<scale>1</scale>", "<scale>5</scale>").replace("</renderer_settings>", settings),
     );
@@ -229,5 +250,4 @@ fn what_is_loaded_once_more_is_as_it_was_unless_its_files_changed() {
     assert_eq!((scale(&state), state.work.map(|work| work.halt_spp)), (Some(5.0), Some((true, 9))));
     assert!(state.mode.is_some_and(|mode| mode.bidirectional));
     assert!(state.file.is_none(), "its elements are others");
-    std::fs::remove_dir_all(&folder).expect("our own files");
 }

@@ -45,8 +45,8 @@ pub struct Worker {
     desk: Arc<Desk>,
     /// Number of the last scene that was asked for; what comes of others is not wanted any more.
     ticket: u64,
-    /// Ends loading that one.
-    loading: Stop,
+    /// Ends loading that one, as long as it is loaded.
+    loading: Option<Stop>,
     open: Option<Open>,
     /// What waits for others to be done with the scene.
     region: Option<RegionWish>,
@@ -69,7 +69,7 @@ impl Worker {
             outlet,
             desk,
             ticket: 0,
-            loading: Stop::default(),
+            loading: None,
             open: None,
             region: None,
             run: None,
@@ -157,22 +157,30 @@ impl Worker {
     fn open(&mut self, request: Request) {
         self.stop(true);
         self.give_up_loading();
-        self.loading = Stop::default();
         self.outlet.send(Update::Phase(Phase::Loading));
-        let spawned = load::spawn(self.ticket, request, self.loading.clone(), self.to_self.clone());
-        if let Err(error) = spawned {
-            self.say(Weight::Error, error.to_string());
-            self.outlet.send(Update::Phase(self.at_rest()));
+        let stop = Stop::default();
+        match load::spawn(self.ticket, request, stop.clone(), self.to_self.clone()) {
+            Ok(()) => self.loading = Some(stop),
+            Err(error) => {
+                self.say(Weight::Error, error.to_string());
+                self.outlet.send(Update::Phase(self.at_rest()));
+            }
         }
     }
 
     /// What is being loaded is not wanted any more.
     fn give_up_loading(&mut self) {
-        self.loading.set();
+        if let Some(stop) = self.loading.take() {
+            stop.set();
+        }
         self.ticket += 1;
     }
 
     fn cancel(&mut self) {
+        // It may have been loaded while the wish was on its way: then what is rendered by now goes on.
+        if self.loading.is_none() {
+            return;
+        }
         self.give_up_loading();
         self.say(Weight::Info, words::CANCELLED);
         self.outlet.send(Update::Phase(self.at_rest()));
@@ -180,6 +188,7 @@ impl Worker {
     }
 
     fn loaded(&mut self, outcome: load::Outcome) {
+        self.loading = None;
         for line in outcome.lines {
             self.outlet.send(Update::Line(line));
         }
