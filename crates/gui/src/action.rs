@@ -58,8 +58,10 @@ pub enum Action {
     SaveElements(Box<Action>),
     /// Write how the picture is developed into the scene.
     WriteSettings,
-    /// Begin the queue, or go on with it.
+    /// Begin the queue, or go on with it, by hand.
     RunQueue,
+    /// Begin the next scene of the queue, whether or not anybody is there.
+    NextInQueue,
     /// Close the window if nothing stands against it.
     TryToClose,
     /// Close the window.

@@ -95,14 +95,7 @@ impl App {
                     }
                 }
                 Answer::Elements(file) => match *file {
-                    // Another scene may be open by now.
-                    Ok(file) if self.state.path.as_deref() != Some(file.path()) => {}
-                    Ok(mut file) => {
-                        if let Some(earlier) = self.state.file.take() {
-                            file.take_changes(&earlier);
-                        }
-                        self.state.file = Some(file);
-                    }
+                    Ok(file) => self.state.take_file(file),
                     Err(text) => self.complain(text),
                 },
                 Answer::Written(Ok(files)) => {
@@ -151,16 +144,22 @@ impl App {
 
     /// Writes changed elements, and goes on with what is to be done then.
     fn save_elements(&mut self, then: Action) {
-        let Some(file) = &self.state.file else { return };
-        match file.save() {
-            Ok(files) => {
-                // What the files say of the mode now was said last.
-                self.state.mode_is_chosen &= !file.changes_any(&["bidirectional", "metropolis", "hybrid"]);
-                self.tell_written(&files);
-                self.state.file = None;
-                self.state.act(then);
+        let mut all_saved = true;
+        for file in self.state.take_unsaved() {
+            match file.save() {
+                Ok(files) => {
+                    self.state.was_saved(&file);
+                    self.tell_written(&files);
+                }
+                Err(text) => {
+                    all_saved = false;
+                    self.state.put_back(file);
+                    self.complain(text);
+                }
             }
-            Err(text) => self.complain(text),
+        }
+        if all_saved {
+            self.state.act(then);
         }
     }
 
@@ -210,8 +209,7 @@ impl App {
         match action {
             Action::Command(command) => self.command(command),
             Action::Open(path) => {
-                // Who opens a scene wants that one next.
-                self.state.queue.leave();
+                self.state.leave_queue_for(&path);
                 self.open(&path, true, context);
             }
             Action::Ask(ask) => self.ask(ask, context),
@@ -226,7 +224,7 @@ impl App {
             Action::ReadElements => self.read_elements(context),
             Action::SaveElements(then) => self.save_elements(*then),
             Action::WriteSettings => self.write_settings(context),
-            Action::RunQueue => self.run_queue(),
+            Action::RunQueue | Action::NextInQueue => self.run_queue(),
             Action::TryToClose => context.send_viewport_cmd(ViewportCommand::Close),
             Action::Close => {
                 self.is_gone = true;
@@ -265,17 +263,8 @@ impl App {
     }
 
     fn run_queue(&mut self) {
-        let Some(path) = self.state.queue.next() else { return };
-        match path.to_str() {
-            Some(text) => {
-                let halts_at = Some(self.state.queue.halts_at);
-                let request = Request { halts_at, ..self.state.request(text, true) };
-                self.load(request);
-            }
-            None => {
-                self.complain(words::not_text(&path));
-                self.state.queue.done();
-            }
+        if let Some(request) = self.state.request_next() {
+            self.load(request);
         }
     }
 

@@ -16,11 +16,6 @@ pub enum Question {
 }
 
 impl State {
-    /// Whether elements were changed that are not in the files yet.
-    pub fn has_unsaved(&self) -> bool {
-        self.file.as_ref().is_some_and(|file| !file.changes.is_empty())
-    }
-
     /// What is asked before the window closes, if anything would be lost.
     pub fn question_before_closing(&self) -> Option<Question> {
         if self.has_unsaved() {

@@ -11,6 +11,8 @@ pub enum Turn {
     Now,
     /// It was.
     Done,
+    /// It could not be loaded, rendered to its end or saved.
+    Failed,
 }
 
 /// See the module.
@@ -47,15 +49,15 @@ impl Queue {
 
     /// Something else is opened: no further scene is begun, and the one whose turn it was is left as it is.
     pub fn leave(&mut self) {
-        self.done();
+        self.end(Turn::Done);
         self.runs = false;
     }
 
-    /// The scene whose turn it was is done; whether the next is to begin.
-    pub fn done(&mut self) -> bool {
+    /// The turn of the scene that was rendered has ended, well or not; whether the next is to begin.
+    pub fn end(&mut self, how: Turn) -> bool {
         for scene in &mut self.scenes {
             if scene.1 == Turn::Now {
-                scene.1 = Turn::Done;
+                scene.1 = how;
                 return self.runs;
             }
         }
@@ -72,12 +74,13 @@ mod tests {
         let mut queue = Queue::default();
         queue.add("a".into());
         queue.add("b".into());
-        assert!(!queue.done(), "none was begun");
+        assert!(!queue.end(Turn::Done), "none was begun");
         assert_eq!(queue.next(), Some("a".into()));
-        assert!(queue.done());
+        assert!(queue.end(Turn::Failed), "the others can be rendered all the same");
         assert_eq!(queue.next(), Some("b".into()));
-        assert!(queue.done());
+        assert!(queue.end(Turn::Done));
         assert_eq!(queue.next(), None);
         assert!(!queue.runs);
+        assert_eq!(queue.scenes, [("a".into(), Turn::Failed), ("b".into(), Turn::Done)]);
     }
 }

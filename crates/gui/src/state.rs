@@ -2,13 +2,15 @@
 
 mod news;
 mod pointing;
+mod requests;
+mod unsaved;
 
 pub use pointing::{Gesture, between};
 
 use crate::action::Action;
 use crate::comparison::Comparison;
 use crate::controls::Controls;
-use crate::engine::{Command, Histogram, Kept, LoadedFacts, Phase, Request};
+use crate::engine::{Command, Histogram, LoadedFacts, Phase};
 use crate::log::{Finding, Log, SourceView};
 use crate::part::Part;
 use crate::question::Question;
@@ -24,6 +26,7 @@ use indigo_front::flags::{Arguments, Role};
 use indigo_imaging::PictureSettings;
 use indigo_net::master::Status;
 use indigo_render::Progress;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
@@ -114,6 +117,8 @@ pub struct State {
     pub sources: Arc<SourceMap>,
     /// Its elements, once they were asked for.
     pub file: Option<SceneFile>,
+    /// Those of scenes that were open before in which something is changed, by their paths.
+    pub set_aside: BTreeMap<String, SceneFile>,
     /// A place in a file that is looked at.
     pub source_view: Option<SourceView>,
     /// How the scene has its picture developed.
@@ -188,6 +193,7 @@ impl State {
             findings: vec![],
             sources: Arc::default(),
             file: None,
+            set_aside: BTreeMap::new(),
             source_view: None,
             base: None,
             controls: None,
@@ -279,40 +285,6 @@ impl State {
         }
     }
 
-    /// The request for a scene, with what the command line says.
-    pub fn request(&self, path: &str, starts: bool) -> Request {
-        let mut arguments = self.arguments.clone();
-        if arguments.files.first().is_none_or(|first| first != path) {
-            // The command line's film and name of the picture are of the command line's scene.
-            (arguments.resume, arguments.output) = (None, None);
-        }
-        let film = arguments.resume.as_ref().map(PathBuf::from);
-        // A scene is opened to be rendered here, whatever else this machine may be.
-        let part = if self.part.role == Some(Role::Slave) { None } else { self.part.role };
-        let part = Part { role: part, ..self.part.clone() };
-        Request { path: path.to_owned(), arguments, part, film, starts, halts_at: None, kept: None }
-    }
-
-    /// The request for the open scene once more, as it is rendered now; `None` where another was asked for since.
-    pub fn request_again(&self) -> Option<Request> {
-        let (path, mode, facts) = (self.path.as_ref()?, self.mode?, self.facts.as_ref()?);
-        if self.wanted.as_ref() != Some(path) {
-            return None;
-        }
-        let of_files = Work::of(&facts.output, self.arguments.halt_error);
-        let mut request = Request {
-            film: None,
-            halts_at: self.queue.runs.then_some(self.queue.halts_at),
-            kept: self.work.map(|work| Kept { work, of_files }),
-            // What rests goes on resting.
-            ..self.request(path, self.phase == Phase::Rendering)
-        };
-        if self.mode_is_chosen {
-            request.arguments.settings.extend(mode.overrides());
-        }
-        Some(request)
-    }
-
     /// Sends the controls to where pictures are made.
     pub fn controls_changed(&mut self) {
         if let (Some(base), Some(controls)) = (&self.base, &self.controls) {
@@ -390,7 +362,5 @@ mod tests {
         state.part.role = Some(Role::Slave);
         state.start_or_pause();
         assert!(matches!(state.actions.pop(), Some(Action::Command(Command::StartSlave(..)))));
-        let request = state.request("a.igs", true);
-        assert_eq!(request.part.role, None, "a scene that is opened is rendered here");
     }
 }

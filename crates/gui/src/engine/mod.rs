@@ -14,6 +14,7 @@ pub use load::LoadedFacts;
 
 use crate::log::{Finding, Line, Weight};
 use crate::part::Part;
+use crate::queue::Turn;
 use crate::work::Work;
 use eframe::egui;
 use indigo_diag::SourceMap;
@@ -133,8 +134,8 @@ pub enum Update {
     Slaves(Box<Status>),
     /// Something to tell.
     Line(Line),
-    /// The scene of the queue is done.
-    Done,
+    /// What was to be rendered has ended, well or not.
+    Done(Turn),
     /// Everything has ended: the window may close.
     Gone,
 }

@@ -249,5 +249,5 @@ fn what_is_loaded_once_more_is_as_it_was_unless_its_files_changed() {
     load_into(&mut state, &engine, again);
     assert_eq!((scale(&state), state.work.map(|work| work.halt_spp)), (Some(5.0), Some((true, 9))));
     assert!(state.mode.is_some_and(|mode| mode.bidirectional));
-    assert!(state.file.is_none(), "its elements are others");
+    assert!(state.file.is_none() && state.has_unsaved(), "its elements are others; what was changed waits");
 }

@@ -8,14 +8,15 @@ mod source;
 use super::{Command, Desk, LoadedFacts, Outlet, Phase, Request, Update, load};
 use crate::log::Weight;
 use crate::part::Part;
+use crate::queue::Turn;
 use crate::words;
 use crate::work::Work;
 use indigo_film::SavedFilm;
 use indigo_front::flags::Arguments;
 use indigo_front::net::slave::SlaveRender;
 use indigo_imaging::{Exposure, PictureSettings, ToneMapping};
-use indigo_render::Session;
 use indigo_render::saved::read_film;
+use indigo_render::{HaltReason, Session};
 use indigo_scene::{FOREGROUND_ALPHA, Scene, Stop};
 use region::RegionWish;
 use run::{BETWEEN_NEWS, Run};
@@ -122,9 +123,8 @@ impl Worker {
             Command::Pause => self.with_run(Run::pause),
             Command::Resume => self.with_run(Run::resume),
             Command::Stop => {
-                let was_rendering = self.run.is_some();
-                self.stop(true);
-                self.tell_done(was_rendering);
+                let ended = self.stop(true);
+                self.tell_turn(ended);
             }
             Command::Adjust(work) => self.adjust(&work),
             Command::SetRegion(region, work) => self.set_region(region, work),
@@ -163,9 +163,15 @@ impl Worker {
             Ok(()) => self.loading = Some(stop),
             Err(error) => {
                 self.say(Weight::Error, error.to_string());
-                self.outlet.send(Update::Phase(self.at_rest()));
+                self.fail_to_begin();
             }
         }
+    }
+
+    /// What was asked for is not rendered; why was told.
+    fn fail_to_begin(&self) {
+        self.outlet.send(Update::Phase(self.at_rest()));
+        self.outlet.send(Update::Done(Turn::Failed));
     }
 
     /// What is being loaded is not wanted any more.
@@ -183,8 +189,7 @@ impl Worker {
         }
         self.give_up_loading();
         self.say(Weight::Info, words::CANCELLED);
-        self.outlet.send(Update::Phase(self.at_rest()));
-        self.outlet.send(Update::Done);
+        self.fail_to_begin();
     }
 
     fn loaded(&mut self, outcome: load::Outcome) {
@@ -195,9 +200,7 @@ impl Worker {
         self.outlet.send(Update::Findings(outcome.findings, outcome.sources));
         let Some(scene) = outcome.scene else {
             self.say(Weight::Error, words::not_rendered(&outcome.request.path));
-            self.outlet.send(Update::Phase(self.at_rest()));
-            self.outlet.send(Update::Done);
-            return;
+            return self.fail_to_begin();
         };
         let facts = LoadedFacts::of(&scene);
         let of_files = Work::of(&facts.output, outcome.request.arguments.halt_error);
@@ -266,10 +269,7 @@ impl Worker {
                 self.run = Some(run);
                 self.outlet.send(Update::Phase(Phase::Rendering));
             }
-            None => {
-                self.outlet.send(Update::Phase(Phase::Ready));
-                self.outlet.send(Update::Done);
-            }
+            None => self.fail_to_begin(),
         }
     }
 
@@ -306,16 +306,16 @@ impl Worker {
         }
     }
 
-    /// Ends what is under way, if anything is.
-    fn stop(&mut self, saves: bool) {
+    /// Ends what is under way, if anything is: then how that was.
+    fn stop(&mut self, saves: bool) -> Option<Turn> {
         self.end_slave();
         if let Some(wish) = &mut self.region {
             wish.work = None;
         }
-        let Some(run) = &mut self.run else { return };
+        let run = self.run.as_mut()?;
         self.outlet.send(Update::Phase(Phase::Ending));
         let reason = run.stop();
-        self.end(reason, saves);
+        self.end(reason, saves)
     }
 
     /// Sends what is left to the master, and leaves.
@@ -326,30 +326,33 @@ impl Worker {
         self.outlet.send(Update::Phase(self.at_rest()));
     }
 
-    fn end(&mut self, reason: indigo_render::HaltReason, saves: bool) {
-        let Some(run) = self.run.take() else { return };
-        let film = match run.end(&reason, saves, &mut self.outlet) {
-            Ok(film) => Arc::new(film),
+    /// Ends the render; how that was, unless it goes on after all.
+    fn end(&mut self, reason: HaltReason, saves: bool) -> Option<Turn> {
+        let run = self.run.take()?;
+        let (film, is_saved) = match run.end(&reason, saves, &mut self.outlet) {
+            Ok((film, is_saved)) => (Arc::new(film), is_saved),
             Err(run) => {
                 self.run = Some(run);
-                return;
+                return None;
             }
         };
+        let is_good = is_saved && !matches!(reason, HaltReason::Failed(_));
         self.desk.set_film(Arc::new(film.film.clone()));
         self.film = Some(film);
         self.outlet.send(Update::Phase(Phase::Halted(reason)));
+        Some(if is_good { Turn::Done } else { Turn::Failed })
     }
 
     /// Ends a render for a reason of its own, so that the next scene may begin.
-    fn end_of_itself(&mut self, reason: indigo_render::HaltReason) {
-        self.end(reason, true);
-        self.tell_done(true);
+    fn end_of_itself(&mut self, reason: HaltReason) {
+        let ended = self.end(reason, true);
+        self.tell_turn(ended);
     }
 
-    /// The scene is done, if it was rendered and is not any more.
-    fn tell_done(&self, was_rendering: bool) {
-        if was_rendering && self.run.is_none() {
-            self.outlet.send(Update::Done);
+    /// Tells that a render has ended, if it has.
+    fn tell_turn(&self, ended: Option<Turn>) {
+        if let Some(how) = ended {
+            self.outlet.send(Update::Done(how));
         }
     }
 

@@ -32,19 +32,15 @@ fn closing(context: &Context, state: &mut State) -> Option<Question> {
 
 /// What becomes of changed elements before something is done.
 fn unsaved(context: &Context, state: &mut State, action: Box<Action>) -> Option<Question> {
-    let n = state.file.as_ref().map_or(0, |file| file.changes.len());
     let answers = [words::UNSAVED_SAVE, words::UNSAVED_DISCARD, words::CANCEL];
-    match choose(context, words::UNSAVED_HEAD, &words::unsaved(n), answers) {
+    match choose(context, words::UNSAVED_HEAD, &words::unsaved(state.n_unsaved()), answers) {
         None => return Some(Question::Unsaved(action)),
         Some(0) => state.act(Action::SaveElements(action)),
         Some(1) => {
-            if let Some(file) = &mut state.file {
-                file.changes.clear();
-            }
+            state.discard_unsaved();
             state.act(*action);
         }
-        // The queue does not go on behind anybody's back.
-        Some(_) => state.queue.runs &= !matches!(*action, Action::RunQueue),
+        Some(_) => {}
     }
     None
 }

@@ -46,7 +46,7 @@ pub fn queue(ui: &mut Ui, state: &mut State) {
             if ui.button(words::QUEUE_END).on_hover_text(words::QUEUE_END_HINT).clicked() {
                 state.queue.runs = false;
             }
-        } else if ui.add_enabled(waits && !state.is_under_way(), Button::new(words::QUEUE_START)).clicked() {
+        } else if ui.add_enabled(waits && state.can_run_queue(), Button::new(words::QUEUE_START)).clicked() {
             state.act(Action::RunQueue);
         }
     });

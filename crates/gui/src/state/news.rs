@@ -5,6 +5,7 @@ use crate::action::Action;
 use crate::controls::Controls;
 use crate::engine::{LoadedFacts, Phase, Update};
 use crate::log::Weight;
+use crate::queue::Turn;
 use crate::work::{Mode, Work};
 use std::path::Path;
 
@@ -21,7 +22,8 @@ impl State {
                 (self.findings, self.sources, self.source_view) = (findings, sources, None);
             }
             Update::Film(settings, path) => {
-                (self.facts, self.file) = (None, None);
+                self.set_file_aside();
+                self.facts = None;
                 self.path = Some(path.display().to_string());
                 self.wanted.clone_from(&self.path);
                 self.controls = Some(Controls::of(&settings));
@@ -36,7 +38,7 @@ impl State {
                 self.slaves = Some(status);
             }
             Update::Line(line) => self.log.add(line),
-            Update::Done => self.scene_is_done(),
+            Update::Done(how) => self.turn_has_ended(how),
             Update::Gone => self.act(Action::Close),
         }
     }
@@ -66,7 +68,7 @@ impl State {
         self.progress = None;
         // Another part of the picture is no reason to read the files anew.
         if work.is_some() {
-            self.file = None;
+            self.set_file_aside();
             if self.shows_elements {
                 self.act(Action::ReadElements);
             }
@@ -89,9 +91,9 @@ impl State {
     }
 
     /// The next scene of the queue, if it runs.
-    fn scene_is_done(&mut self) {
-        if self.queue.done() {
-            self.act(Action::RunQueue);
+    fn turn_has_ended(&mut self, how: Turn) {
+        if self.queue.end(how) {
+            self.act(Action::NextInQueue);
         }
     }
 }
@@ -123,6 +125,19 @@ mod tests {
         assert!(matches!(state.actions.last(), Some(Action::Command(Command::SetPicture(_)))));
         state.reset_controls();
         assert_eq!(state.controls.as_ref().map(|c| c.scale), Some(2.0));
+    }
+
+    /// By night nobody answers questions.
+    #[test]
+    fn the_queue_asks_nobody() {
+        let mut state = state();
+        state.queue.add("a.igs".into());
+        state.queue.add("b.igs".into());
+        state.queue.next();
+        state.take(Update::Done(Turn::Failed));
+        let action = state.actions.pop().expect("the next scene");
+        assert!(matches!(action, Action::NextInQueue) && !action.leaves_scene());
+        assert!(Action::RunQueue.leaves_scene(), "whoever presses the button can be asked");
     }
 
     #[test]

@@ -88,6 +88,14 @@ pub fn unsaved(n: usize) -> String {
     format!("{} to the scene's elements would be lost.", indigo_front::messages::count(n, "change"))
 }
 
+/// Changed elements of a scene that is not open any more.
+pub fn set_aside(n: usize, path: &str) -> String {
+    let changes = indigo_front::messages::count(n, "change");
+    format!(
+        "Not saved yet: {changes} to the elements of {path}; open it again to see them, or save them when the window closes"
+    )
+}
+
 /// The ending of a file.
 pub fn ending(what: OneFile) -> &'static str {
     match what {

@@ -242,6 +242,7 @@ pub fn turn(turn: Turn) -> &'static str {
         Turn::Waiting => "waiting",
         Turn::Now => "rendering",
         Turn::Done => "done",
+        Turn::Failed => "failed",
     }
 }
 

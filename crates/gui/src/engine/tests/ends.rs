@@ -9,7 +9,7 @@ fn rendering(folder: &Folder) -> Engine {
     folder.write("scene.igs", &even_light());
     let engine = Engine::new(&Context::default()).expect("threads");
     let mut request = Request { starts: true, ..folder.request() };
-    request.arguments.output = Some(folder.path("picture.png").into());
+    request.arguments.output = Some(folder.path("picture.png"));
     engine.send(Command::Open(Box::new(request)));
     wait_for(&engine, "render", |update| matches!(update, Update::Phase(Phase::Rendering)).then_some(()));
     engine

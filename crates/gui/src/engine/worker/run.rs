@@ -208,18 +208,23 @@ impl Run {
         Ok(())
     }
 
-    /// The film at the end, after its files were written if they are wanted.
+    /// The film at the end, after its files were written if they are wanted, and whether that could be.
     ///
     /// # Errors
     /// The render where it goes on after all: slaves have not sent samples that they had told of.
-    pub fn end(self, reason: &HaltReason, saves: bool, outlet: &mut Outlet) -> Result<SavedFilm, Self> {
+    pub fn end(
+        self,
+        reason: &HaltReason,
+        saves: bool,
+        outlet: &mut Outlet,
+    ) -> Result<(SavedFilm, bool), Self> {
         if let Some(status) = self.source.slaves() {
             outlet.send(Update::Slaves(Box::new(status)));
         }
         match self.source.end(reason, saves, outlet) {
-            Ended::Film(progress, film) => {
+            Ended::Film { progress, film, is_saved } => {
                 outlet.tell_progress(progress);
-                Ok(*film)
+                Ok((*film, is_saved))
             }
             Ended::GoesOn(source) => Err(Self { source, ..self }),
         }

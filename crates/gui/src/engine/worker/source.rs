@@ -43,8 +43,15 @@ pub trait Source: Send {
 
 /// What becomes of a render that is to end.
 pub enum Ended {
-    /// How far it came, and the film.
-    Film(Progress, Box<SavedFilm>),
+    /// It has ended.
+    Film {
+        /// How far it came.
+        progress: Progress,
+        /// All that was gathered.
+        film: Box<SavedFilm>,
+        /// Whether all files that are wanted were written.
+        is_saved: bool,
+    },
     /// It has not what was asked for after all, and goes on.
     GoesOn(Box<dyn Source>),
 }

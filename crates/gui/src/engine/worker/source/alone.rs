@@ -118,10 +118,8 @@ impl Source for Alone {
         }
         let progress = self.session.progress();
         let film = self.film(messages);
-        if saves {
-            say_saved(&self.job().save(&film), messages);
-        }
-        Ended::Film(self.with_before(&progress), film.into())
+        let is_saved = !saves || say_saved(&self.job().save(&film), messages);
+        Ended::Film { progress: self.with_before(&progress), film: film.into(), is_saved }
     }
 
     fn slaves(&self) -> Option<Status> {

@@ -83,7 +83,8 @@ impl Source for Many {
     fn end(self: Box<Self>, reason: &HaltReason, saves: bool, messages: &mut dyn Messages) -> Ended {
         let mut render = self.0;
         if !saves {
-            return Ended::Film(render.progress(), render.discard(messages).into());
+            let progress = render.progress();
+            return Ended::Film { progress, film: render.discard(messages).into(), is_saved: true };
         }
         if let HaltReason::Failed(message) = reason {
             messages.error(message);
@@ -99,7 +100,8 @@ impl Source for Many {
             }
         }
         let progress = gathered.progress;
-        Ended::Film(progress, gathered.save(messages).0.into())
+        let (film, is_saved) = gathered.save(messages);
+        Ended::Film { progress, film: film.into(), is_saved }
     }
 
     fn slaves(&self) -> Option<Status> {
