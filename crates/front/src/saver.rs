@@ -11,14 +11,27 @@ pub struct Saver {
     period: Duration,
     saving: Option<Underway>,
     last: Instant,
+    next: Next,
     announced: bool,
     failures: usize,
+}
+
+/// When the next save begins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Next {
+    /// When the period has passed.
+    InTime,
+    /// As soon as none is under way.
+    Soon,
+    /// The same, by wish: what becomes of it is told, however often files were saved before.
+    Wished,
 }
 
 /// A save that has begun, and the record of its film.
 struct Underway {
     saving: Saving,
     record: Option<FilmRecord>,
+    is_wished: bool,
 }
 
 impl Saver {
@@ -26,7 +39,8 @@ impl Saver {
     pub fn new(job: SaveJob) -> Self {
         let period = job.development.output.image_save_period;
         let period = Duration::try_from_secs_f64(period).unwrap_or(Duration::MAX);
-        Self { job, period, saving: None, last: Instant::now(), announced: false, failures: 0 }
+        let (last, next) = (Instant::now(), Next::InTime);
+        Self { job, period, saving: None, last, next, announced: false, failures: 0 }
     }
 
     /// What is saved.
@@ -37,6 +51,21 @@ impl Saver {
     /// The same, to be changed from the next save on.
     pub fn job_mut(&mut self) -> &mut SaveJob {
         &mut self.job
+    }
+
+    /// The next save begins as soon as none is under way.
+    pub fn save_soon(&mut self) {
+        self.next = self.next.max(Next::Soon);
+    }
+
+    /// The same by somebody's wish, who is told what becomes of it.
+    pub fn save_by_wish(&mut self) {
+        self.next = Next::Wished;
+    }
+
+    /// Whether a save is under way, or will be as soon as none is.
+    pub fn is_at_work(&self) -> bool {
+        self.saving.is_some() || self.next != Next::InTime
     }
 
     /// Time until the next save is due. While one is under way the next cannot begin: then it is looked after
@@ -68,24 +97,41 @@ impl Saver {
 
     /// Whether it is time for a save, and none is under way.
     pub fn is_due(&self) -> bool {
-        self.saving.is_none() && self.last.elapsed() >= self.period
+        self.saving.is_none() && (self.next != Next::InTime || self.last.elapsed() >= self.period)
     }
 
     /// Begins a save.
     pub fn begin(&mut self, film: SavedFilm, messages: &mut dyn Messages) {
         self.last = Instant::now();
+        let is_wished = std::mem::replace(&mut self.next, Next::InTime) == Next::Wished;
         let record = film.record.clone();
         match self.job.spawn(film) {
-            Ok(saving) => self.saving = Some(Underway { saving, record }),
+            Ok(saving) => self.saving = Some(Underway { saving, record, is_wished }),
+            Err(error) if is_wished => messages.error(&error.to_string()),
             Err(error) => self.complain(&error, messages),
+        }
+    }
+
+    /// Waits for a save that has begun, and does the one that was wished for meanwhile, of the film that `film` gives; for an end
+    /// without a last save.
+    pub fn keep_word(&mut self, film: impl FnOnce() -> SavedFilm, messages: &mut dyn Messages) {
+        self.wait_for_last(messages);
+        if self.next == Next::Wished {
+            self.begin(film(), messages);
+            self.wait_for_last(messages);
         }
     }
 
     /// Waits for a save that has begun; the record of its film, if that is a file now.
     pub fn wait_for_last(&mut self, messages: &mut dyn Messages) -> Option<FilmRecord> {
-        let Underway { saving, record } = self.saving.take()?;
+        let Underway { saving, record, is_wished } = self.saving.take()?;
         let mut saved = saving.finish();
         let has_film = saved.written.contains(&self.job.paths.igi());
+        if is_wished {
+            self.announced = true;
+            say_saved(&saved, messages);
+            return record.filter(|_| has_film);
+        }
         let first_failure = (!saved.failures.is_empty()).then(|| saved.failures.swap_remove(0));
         if let Some(error) = first_failure {
             self.complain(&error, messages);

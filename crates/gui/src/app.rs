@@ -1,6 +1,7 @@
 //! The window: it hands what happens to the panels, and what they ask for to the engine.
 
 mod asking;
+mod writing;
 
 use crate::action::{Action, Ask, PICTURES, has_ending};
 use crate::comparison;
@@ -20,6 +21,7 @@ use indigo_front::flags::{Arguments, Role};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
+use writing::Writing;
 
 /// Where the files that were opened lately are remembered.
 const RECENT: &str = "recent";
@@ -45,6 +47,7 @@ pub struct App {
     textures: Textures,
     answers: Receiver<Answer>,
     answer: Sender<Answer>,
+    writing: Writing,
     /// Whether the engine has ended.
     is_gone: bool,
 }
@@ -64,7 +67,15 @@ impl App {
             state.start_or_pause();
         }
         let (answer, answers) = channel();
-        Self { state, engine, textures: Textures::default(), answers, answer, is_gone: false }
+        Self {
+            state,
+            engine,
+            textures: Textures::default(),
+            answers,
+            answer,
+            writing: Writing::default(),
+            is_gone: false,
+        }
     }
 
     fn send(&self, command: Command) {
@@ -169,11 +180,14 @@ impl App {
         };
         let (path, controls, base) = (path.clone(), controls.clone(), base.clone());
         let (answer, context) = (self.answer.clone(), context.clone());
-        self.spawn("settings", move || {
+        let work = move || {
             let written = SceneFile::read(&path).and_then(|file| file.save_controls(&controls, &base));
             drop(answer.send(Answer::Written(written)));
             context.request_repaint();
-        });
+        };
+        if let Err(error) = self.writing.spawn("settings", work) {
+            self.complain(error.to_string());
+        }
     }
 
     fn show(&mut self, shown: Shown, context: &Context) {

@@ -247,3 +247,8 @@ texts! {
     SCENES = "Scenes";
     PICTURES = "Pictures";
 }
+
+// What fails, and what is to become of it.
+texts! {
+    SAVING_FAILED = "Saving failed by an error of the program, which is a bug: please report it";
+}

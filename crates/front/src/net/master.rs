@@ -104,6 +104,11 @@ impl MasterRender {
         self.master.status()
     }
 
+    /// Saves as soon as no save is under way, and tells what becomes of it.
+    pub fn save_by_wish(&mut self) {
+        self.saver.save_by_wish();
+    }
+
     /// What is saved.
     pub fn job(&self) -> &SaveJob {
         self.saver.job()

@@ -221,7 +221,7 @@ impl Engine {
         let named = |name: &str| std::thread::Builder::new().name(name.to_owned());
         let developer =
             named("develop").spawn(move || developing.work(&|| wake.request_repaint_after(SOON)))?;
-        let worker = worker::Worker::new(orders, commands.clone(), outlet, Arc::clone(&desk));
+        let worker = worker::Worker::new(orders, commands.clone(), outlet, Arc::clone(&desk))?;
         let worker = named("engine").spawn(move || worker.work())?;
         Ok(Self { commands, updates, desk, threads: vec![developer, worker] })
     }

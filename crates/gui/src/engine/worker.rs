@@ -4,6 +4,7 @@ mod region;
 mod run;
 mod save;
 mod source;
+mod writer;
 
 use super::{Command, Desk, LoadedFacts, Outlet, Phase, Request, Update, load};
 use crate::log::Weight;
@@ -24,6 +25,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
 use std::time::{Duration, Instant};
+use writer::Writer;
 
 /// How long a command may wait while a scene is rendered.
 const PULSE: Duration = Duration::from_millis(40);
@@ -44,6 +46,7 @@ pub struct Worker {
     to_self: Sender<Command>,
     outlet: Outlet,
     desk: Arc<Desk>,
+    writer: Writer,
     /// Number of the last scene that was asked for; what comes of others is not wanted any more.
     ticket: u64,
     /// Ends loading that one, as long as it is loaded.
@@ -63,10 +66,19 @@ pub struct Worker {
 
 impl Worker {
     /// A worker that takes orders.
-    pub fn new(orders: Receiver<Command>, to_self: Sender<Command>, outlet: Outlet, desk: Arc<Desk>) -> Self {
-        Self {
+    ///
+    /// # Errors
+    /// Where the system gives no thread for what is written.
+    pub fn new(
+        orders: Receiver<Command>,
+        to_self: Sender<Command>,
+        outlet: Outlet,
+        desk: Arc<Desk>,
+    ) -> std::io::Result<Self> {
+        Ok(Self {
             orders,
             to_self,
+            writer: Writer::start(outlet.clone())?,
             outlet,
             desk,
             ticket: 0,
@@ -78,7 +90,7 @@ impl Worker {
             part: Part::of(&Arguments::default()),
             film: None,
             picture: None,
-        }
+        })
     }
 
     /// Works until told to quit.
@@ -329,6 +341,8 @@ impl Worker {
     /// Ends the render; how that was, unless it goes on after all.
     fn end(&mut self, reason: HaltReason, saves: bool) -> Option<Turn> {
         let run = self.run.take()?;
+        // The last of its files is the newest, also where one was saved by hand.
+        self.writer.wait();
         let (film, is_saved) = match run.end(&reason, saves, &mut self.outlet) {
             Ok((film, is_saved)) => (Arc::new(film), is_saved),
             Err(run) => {
@@ -366,6 +380,7 @@ impl Worker {
 
     fn quit(&mut self, saves: bool) {
         self.stop(saves);
+        self.writer.wait();
         self.outlet.send(Update::Gone);
     }
 }

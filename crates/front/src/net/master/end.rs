@@ -44,10 +44,12 @@ impl MasterRender {
         Gathered { progress: self.progress(), lacks_samples, render: self }
     }
 
-    /// Ends the connections without waiting or saving; the film. Slaves keep what is in no file, should there be a master again.
+    /// Ends the connections without waiting or saving, but for what somebody wished to have saved; the film. Slaves keep what is in no file, should there be a master again.
     pub fn discard(mut self, messages: &mut dyn Messages) -> SavedFilm {
         self.master.close();
-        self.film(messages)
+        let film = self.film(messages);
+        self.saver.keep_word(|| film.clone(), messages);
+        film
     }
 
     /// Waits for what slaves have left. Those that send may need longer than those that are silent, which a slave that was

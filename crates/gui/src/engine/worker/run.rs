@@ -15,7 +15,7 @@ use indigo_front::prepare::prepare;
 use indigo_imaging::PictureSettings;
 use indigo_render::output::SaveJob;
 use indigo_render::{HaltReason, Progress};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -48,6 +48,12 @@ fn named(arguments: &Arguments, messages: &mut dyn Messages) -> Result<Option<Pa
     let output = arguments.output.as_deref();
     let named = output.map(picture_named).transpose();
     named.map_err(|reason| messages.error(&format!("-o {}: {reason}", output.unwrap_or_default())))
+}
+
+/// The same for all names of a file, whether or not it is there yet; `None` where its folder is not.
+fn place(path: &Path) -> Option<PathBuf> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    Some(folder.canonicalize().ok()?.join(path.file_name()?))
 }
 
 /// Begins to render; `None` where that cannot be, after telling why.
@@ -110,9 +116,9 @@ impl Run {
         self.rests
     }
 
-    /// The same, and whether the picture of that was shown.
+    /// The same, and whether the picture of that was shown and saved.
     pub fn is_at_rest(&self) -> bool {
-        self.rests && self.rest_shown
+        self.rests && self.rest_shown && !self.source.is_saving()
     }
 
     /// Whether others may render, too.
@@ -142,6 +148,17 @@ impl Run {
         self.source.job()
     }
 
+    /// Writes all files as soon as none is being written.
+    pub fn save_by_wish(&mut self) {
+        self.source.save_by_wish();
+    }
+
+    /// Whether a path is that of one of its files.
+    pub fn writes(&self, path: &Path) -> bool {
+        let Some(place) = place(path) else { return false };
+        self.source.job().files().any(|own| self::place(&own).as_ref() == Some(&place))
+    }
+
     /// Develops by these when saving.
     pub fn set_picture(&mut self, picture: &PictureSettings) {
         self.source.job_mut().development.picture = picture.clone();
@@ -161,6 +178,10 @@ impl Run {
         if is_first_rest || !self.rests && self.shown.elapsed() >= self.between_pictures() {
             self.show(desk, outlet);
             self.rest_shown = is_first_rest;
+        }
+        if is_first_rest {
+            // Somebody may leave the machine like this.
+            self.source.save_soon();
         }
         None
     }

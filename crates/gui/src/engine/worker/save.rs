@@ -1,10 +1,9 @@
 //! Saving what is there by wish.
 
 use super::{Open, Worker};
-use crate::engine::Outlet;
 use crate::log::Weight;
 use crate::words;
-use indigo_front::messages::{Messages as _, say_saved};
+use indigo_front::messages::Messages as _;
 use indigo_front::{logical_cores, program};
 use indigo_imaging::PictureSettings;
 use indigo_render::output::{OneFile, OutputPaths, SaveJob, save_film_as};
@@ -13,24 +12,25 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 impl Worker {
-    /// Writes all files of the render, on a thread of its own.
+    /// Writes all files of the render. It writes them itself, so that no older film can take a newer one's place.
     pub(super) fn save_all(&mut self) {
-        let Some(run) = &mut self.run else { return };
-        let (job, film) = (run.job().clone(), run.film(&mut self.outlet));
-        self.spawn_save(move |messages| {
-            say_saved(&job.save(&film), messages);
-        });
+        if let Some(run) = &mut self.run {
+            run.save_by_wish();
+        }
     }
 
-    /// Writes one file of what is there now, on a thread of its own.
+    /// Writes one file of what is there now, on the thread for that.
     pub(super) fn save(&mut self, what: OneFile, path: PathBuf) {
+        if self.run.as_ref().is_some_and(|run| run.writes(&path)) {
+            return self.save_all();
+        }
         let growing = self.run.as_mut().map(|run| Arc::new(run.film(&mut self.outlet)));
         let film = growing.or_else(|| self.film.clone());
         let (Some(film), Some(picture)) = (film, self.picture.clone()) else {
             return self.say(Weight::Error, words::NOTHING_TO_SAVE);
         };
         let job = self.open.as_ref().map(|open| job(open, picture.clone()));
-        self.spawn_save(move |messages| {
+        self.writer.write(move |messages| {
             let written = match job {
                 Some(job) => job.save_as(&film, what, &path),
                 None => save_film_as(&film, what, &path, &picture, &program(), logical_cores()),
@@ -40,14 +40,6 @@ impl Worker {
                 Err(error) => messages.error(&error.to_string()),
             }
         });
-    }
-
-    fn spawn_save(&self, save: impl FnOnce(&mut Outlet) + Send + 'static) {
-        let mut outlet = self.outlet.clone();
-        let thread = std::thread::Builder::new().name("save".to_owned());
-        if let Err(error) = thread.spawn(move || save(&mut outlet)) {
-            self.say(Weight::Error, error.to_string());
-        }
     }
 }
 

@@ -27,6 +27,12 @@ pub trait Source: Send {
     fn job(&self) -> &SaveJob;
     /// The same, to be changed from the next save on.
     fn job_mut(&mut self) -> &mut SaveJob;
+    /// Saves as soon as no save is under way.
+    fn save_soon(&mut self);
+    /// The same by wish: what becomes of it is told.
+    fn save_by_wish(&mut self);
+    /// Whether a save is under way or will soon be, for which steps are needed.
+    fn is_saving(&self) -> bool;
     /// Lets the threads rest, or go on.
     fn set_rest(&mut self, rests: bool);
     /// Whether all of them rest.

@@ -75,6 +75,18 @@ impl Source for Alone {
         self.saver.job_mut()
     }
 
+    fn save_soon(&mut self) {
+        self.saver.save_soon();
+    }
+
+    fn save_by_wish(&mut self) {
+        self.saver.save_by_wish();
+    }
+
+    fn is_saving(&self) -> bool {
+        self.saver.is_at_work()
+    }
+
     fn set_rest(&mut self, rests: bool) {
         if rests {
             self.session.pause();
@@ -112,13 +124,18 @@ impl Source for Alone {
     }
 
     fn end(mut self: Box<Self>, reason: &HaltReason, saves: bool, messages: &mut dyn Messages) -> Ended {
-        self.saver.wait_for_last(messages);
         if let HaltReason::Failed(message) = reason {
             messages.error(message);
         }
         let progress = self.session.progress();
         let film = self.film(messages);
-        let is_saved = !saves || say_saved(&self.job().save(&film), messages);
+        let is_saved = if saves {
+            self.saver.wait_for_last(messages);
+            say_saved(&self.job().save(&film), messages)
+        } else {
+            self.saver.keep_word(|| film.clone(), messages);
+            true
+        };
         Ended::Film { progress: self.with_before(&progress), film: film.into(), is_saved }
     }
 

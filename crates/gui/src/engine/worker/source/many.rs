@@ -64,6 +64,18 @@ impl Source for Many {
         self.0.job_mut()
     }
 
+    // What needs saving early is a rest.
+    fn save_soon(&mut self) {}
+
+    fn save_by_wish(&mut self) {
+        self.0.save_by_wish();
+    }
+
+    // Nor would steps be left out.
+    fn is_saving(&self) -> bool {
+        false
+    }
+
     // The window lets no master rest: its slaves would not.
     fn set_rest(&mut self, _rests: bool) {}
 
