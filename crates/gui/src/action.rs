@@ -77,6 +77,11 @@ impl Action {
             _ => false,
         }
     }
+
+    /// Whether the film that was rendered last is not there any more then.
+    pub fn leaves_film(&self) -> bool {
+        self.leaves_scene() || matches!(self, Self::Command(Command::SetRegion(..)))
+    }
 }
 
 /// Whether a path has one of some endings.

@@ -288,17 +288,20 @@ impl App {
         }
     }
 
-    /// Neither a render nor changed elements are lost by closing the window.
+    /// Neither a render nor changed elements are lost by closing the window, which lives until the engine has ended: that may
+    /// take a while, in which nothing must look dead.
     fn tend_closing(&mut self, context: &Context) {
-        if !context.input(|input| input.viewport().close_requested()) || self.is_gone {
+        let is_wanted = context.input(|input| input.viewport().close_requested());
+        if !is_wanted || self.is_gone || self.engine.is_none() {
             return;
         }
-        if let Some(question) = self.state.question_before_closing() {
-            context.send_viewport_cmd(ViewportCommand::CancelClose);
-            self.state.question = Some(question);
-            // The question has its part of a frame behind it already.
-            context.request_repaint();
+        context.send_viewport_cmd(ViewportCommand::CancelClose);
+        match self.state.question_before_closing() {
+            Some(question) => self.state.ask(question),
+            None => self.state.save_and_close(),
         }
+        // The question has its part of a frame behind it already.
+        context.request_repaint();
     }
 }
 

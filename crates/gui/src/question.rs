@@ -11,23 +11,37 @@ pub enum Question {
     Close,
     /// What becomes of changed elements before something is done.
     Unsaved(Box<Action>),
+    /// What becomes of films that could not be saved before something is done.
+    UnsavedFilm(Box<Action>),
     /// A path, where the desktop has no dialog for it.
     Path(PathLine),
 }
 
 impl State {
+    /// Asks the user.
+    pub fn ask(&mut self, question: Question) {
+        self.question = Some(question);
+    }
+
     /// What is asked before the window closes, if anything would be lost.
     pub fn question_before_closing(&self) -> Option<Question> {
         if self.has_unsaved() {
             return Some(Question::Unsaved(Action::TryToClose.into()));
         }
+        if self.unsaved_films > 0 {
+            return Some(Question::UnsavedFilm(Action::TryToClose.into()));
+        }
         self.has_growing_film().then_some(Question::Close)
     }
 
-    /// Something to do, unless changed elements would be lost by it: then the user is asked.
+    /// Something to do, unless changed elements or a film would be lost by it: then the user is asked.
     pub fn allowed(&mut self, action: Action) -> Option<Action> {
         if self.has_unsaved() && action.leaves_scene() {
-            self.question = Some(Question::Unsaved(Box::new(action)));
+            self.ask(Question::Unsaved(Box::new(action)));
+            return None;
+        }
+        if self.unsaved_films > 0 && action.leaves_film() {
+            self.ask(Question::UnsavedFilm(Box::new(action)));
             return None;
         }
         Some(action)

@@ -4,6 +4,7 @@ mod news;
 mod pointing;
 mod requests;
 mod unsaved;
+mod unsaved_films;
 
 pub use pointing::{Gesture, between};
 
@@ -119,6 +120,10 @@ pub struct State {
     pub file: Option<SceneFile>,
     /// Those of scenes that were open before in which something is changed, by their paths.
     pub set_aside: BTreeMap<String, SceneFile>,
+    /// How many films are in memory alone, since they could not be saved.
+    pub unsaved_films: usize,
+    /// What is done once they are saved.
+    pub after_saving: Option<Box<Action>>,
     /// A place in a file that is looked at.
     pub source_view: Option<SourceView>,
     /// How the scene has its picture developed.
@@ -193,6 +198,8 @@ impl State {
             findings: vec![],
             sources: Arc::default(),
             file: None,
+            unsaved_films: 0,
+            after_saving: None,
             set_aside: BTreeMap::new(),
             source_view: None,
             base: None,

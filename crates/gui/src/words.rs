@@ -250,5 +250,8 @@ texts! {
 
 // What fails, and what is to become of it.
 texts! {
+    FILM_HEAD = "The last render could not be saved";
+    FILM_SAVE = "Save again";
+    REGION_OF_UNSAVED = "the last render could not be saved: save it again before another region is rendered";
     SAVING_FAILED = "Saving failed by an error of the program, which is a bug: please report it";
 }

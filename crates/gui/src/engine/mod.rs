@@ -57,11 +57,13 @@ pub enum Command {
     SetRegion(Option<[[u32; 2]; 2]>, Work),
     /// The picture is developed like this when it is saved.
     SetPicture(Box<PictureSettings>),
-    /// Write all files of the render now.
+    /// Write all files of the render now, and of those before it that could not be saved.
     SaveAll,
+    /// Give up the films that could not be saved.
+    DiscardUnsaved,
     /// Write one file.
     Save(OneFile, PathBuf),
-    /// End it all, with all files or without.
+    /// End it all, with all files or without; not at all where they are wanted and cannot be written.
     Quit {
         /// Whether the render's files are written.
         saves: bool,
@@ -136,6 +138,8 @@ pub enum Update {
     Line(Line),
     /// What was to be rendered has ended, well or not.
     Done(Turn),
+    /// So many films are in memory alone, since they could not be saved.
+    Unsaved(usize),
     /// Everything has ended: the window may close.
     Gone,
 }

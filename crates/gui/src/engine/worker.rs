@@ -1,30 +1,31 @@
 //! The engine's own thread: it holds the scene and the running session.
 
+mod opening;
 mod region;
 mod run;
 mod save;
 mod source;
+mod unsaved;
 mod writer;
 
-use super::{Command, Desk, LoadedFacts, Outlet, Phase, Request, Update, load};
+use super::{Command, Desk, Outlet, Phase, Request, Update};
 use crate::log::Weight;
 use crate::part::Part;
 use crate::queue::Turn;
-use crate::words;
 use crate::work::Work;
 use indigo_film::SavedFilm;
 use indigo_front::flags::Arguments;
 use indigo_front::net::slave::SlaveRender;
-use indigo_imaging::{Exposure, PictureSettings, ToneMapping};
-use indigo_render::saved::read_film;
-use indigo_render::{HaltReason, Session};
-use indigo_scene::{FOREGROUND_ALPHA, Scene, Stop};
+use indigo_imaging::PictureSettings;
+use indigo_render::HaltReason;
+use indigo_scene::{Scene, Stop};
 use region::RegionWish;
 use run::{BETWEEN_NEWS, Run};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
 use std::time::{Duration, Instant};
+use unsaved::Unsaved;
 use writer::Writer;
 
 /// How long a command may wait while a scene is rendered.
@@ -62,6 +63,7 @@ pub struct Worker {
     /// The film of the last render, or one that was opened.
     film: Option<Arc<SavedFilm>>,
     picture: Option<PictureSettings>,
+    unsaved: Vec<Unsaved>,
 }
 
 impl Worker {
@@ -90,6 +92,7 @@ impl Worker {
             part: Part::of(&Arguments::default()),
             film: None,
             picture: None,
+            unsaved: vec![],
         })
     }
 
@@ -98,7 +101,11 @@ impl Worker {
         loop {
             self.try_region();
             match self.next_order() {
-                Ok(Command::Quit { saves }) => return self.quit(saves),
+                Ok(Command::Quit { saves }) => {
+                    if self.quit(saves) {
+                        return;
+                    }
+                }
                 Ok(order) => self.obey(order),
                 Err(RecvTimeoutError::Timeout) => self.render_on(),
                 // Nobody is left to give orders.
@@ -144,9 +151,11 @@ impl Worker {
                 if let Some(run) = &mut self.run {
                     run.set_picture(&picture);
                 }
+                self.develop_unsaved(&picture);
                 self.picture = Some(*picture);
             }
             Command::SaveAll => self.save_all(),
+            Command::DiscardUnsaved => self.discard_unsaved(),
             Command::Save(what, path) => self.save(what, path),
         }
     }
@@ -166,106 +175,6 @@ impl Worker {
         if self.open.is_some() { Phase::Ready } else { Phase::Empty }
     }
 
-    fn open(&mut self, request: Request) {
-        self.stop(true);
-        self.give_up_loading();
-        self.outlet.send(Update::Phase(Phase::Loading));
-        let stop = Stop::default();
-        match load::spawn(self.ticket, request, stop.clone(), self.to_self.clone()) {
-            Ok(()) => self.loading = Some(stop),
-            Err(error) => {
-                self.say(Weight::Error, error.to_string());
-                self.fail_to_begin();
-            }
-        }
-    }
-
-    /// What was asked for is not rendered; why was told.
-    fn fail_to_begin(&self) {
-        self.outlet.send(Update::Phase(self.at_rest()));
-        self.outlet.send(Update::Done(Turn::Failed));
-    }
-
-    /// What is being loaded is not wanted any more.
-    fn give_up_loading(&mut self) {
-        if let Some(stop) = self.loading.take() {
-            stop.set();
-        }
-        self.ticket += 1;
-    }
-
-    fn cancel(&mut self) {
-        // It may have been loaded while the wish was on its way: then what is rendered by now goes on.
-        if self.loading.is_none() {
-            return;
-        }
-        self.give_up_loading();
-        self.say(Weight::Info, words::CANCELLED);
-        self.fail_to_begin();
-    }
-
-    fn loaded(&mut self, outcome: load::Outcome) {
-        self.loading = None;
-        for line in outcome.lines {
-            self.outlet.send(Update::Line(line));
-        }
-        self.outlet.send(Update::Findings(outcome.findings, outcome.sources));
-        let Some(scene) = outcome.scene else {
-            self.say(Weight::Error, words::not_rendered(&outcome.request.path));
-            return self.fail_to_begin();
-        };
-        let facts = LoadedFacts::of(&scene);
-        let of_files = Work::of(&facts.output, outcome.request.arguments.halt_error);
-        let kept = outcome.request.kept.filter(|kept| kept.of_files == of_files);
-        let mut work = kept.map_or(of_files, |kept| kept.work);
-        if let Some(samples) = outcome.request.halts_at {
-            work.halt_by(samples);
-        }
-        self.picture = Some(facts.picture.clone());
-        self.desk.set_settings(facts.picture.clone());
-        self.film = outcome.film.map(Arc::new);
-        let starts = outcome.request.starts;
-        self.part = outcome.request.part.clone();
-        let (read, request) = (outcome.read, outcome.request);
-        let region_of_files = scene.film.region;
-        self.region = None;
-        self.open = Some(Open { scene, read, request, region_of_files });
-        self.outlet.send(Update::Scene(Box::new(facts), Some(work)));
-        self.outlet.send(Update::Phase(Phase::Ready));
-        if starts {
-            self.start(&work);
-        }
-    }
-
-    /// A film of the scene that is open is gone on with at the next start; any other is only looked at.
-    fn open_film(&mut self, path: &std::path::Path) {
-        let film = match read_film(path) {
-            Ok(film) => Arc::new(film),
-            Err(error) => return self.say(Weight::Error, error.to_string()),
-        };
-        self.stop(true);
-        self.desk.set_film(Arc::new(film.film.clone()));
-        let fits = self.open.as_ref().map(|open| Session::check(&open.scene, &film).map(|_| ()));
-        match fits {
-            Some(Ok(())) => {
-                self.say(Weight::Info, words::goes_on_with(path));
-                self.outlet.send(Update::Phase(Phase::Ready));
-            }
-            other => {
-                if let Some(Err(error)) = other {
-                    self.say(Weight::Warning, words::only_looked_at(path, &error.to_string()));
-                }
-                (self.open, self.region) = (None, None);
-                let picture = plain_picture(&film);
-                self.picture = Some(picture.clone());
-                self.desk.set_settings(picture.clone());
-                self.outlet.send(Update::Film(Box::new(picture), path.to_path_buf()));
-                self.outlet.send(Update::Phase(Phase::Empty));
-            }
-        }
-        self.film = Some(film);
-    }
-
     fn start(&mut self, work: &Work) {
         if let Some(wish) = &mut self.region {
             wish.work = Some(*work);
@@ -279,6 +188,7 @@ impl Worker {
         match Run::begin(open, &self.part, work, film, picture, &mut self.outlet) {
             Some(run) => {
                 self.run = Some(run);
+                self.go_on_with_unsaved();
                 self.outlet.send(Update::Phase(Phase::Rendering));
             }
             None => self.fail_to_begin(),
@@ -343,6 +253,7 @@ impl Worker {
         let run = self.run.take()?;
         // The last of its files is the newest, also where one was saved by hand.
         self.writer.wait();
+        let job = run.job().clone();
         let (film, is_saved) = match run.end(&reason, saves, &mut self.outlet) {
             Ok((film, is_saved)) => (Arc::new(film), is_saved),
             Err(run) => {
@@ -352,8 +263,11 @@ impl Worker {
         };
         let is_good = is_saved && !matches!(reason, HaltReason::Failed(_));
         self.desk.set_film(Arc::new(film.film.clone()));
-        self.film = Some(film);
+        self.film = Some(Arc::clone(&film));
         self.outlet.send(Update::Phase(Phase::Halted(reason)));
+        if !is_saved {
+            self.keep(film, job);
+        }
         Some(if is_good { Turn::Done } else { Turn::Failed })
     }
 
@@ -378,21 +292,17 @@ impl Worker {
         }
     }
 
-    fn quit(&mut self, saves: bool) {
+    /// Ends everything; whether that could be without a loss, unless losses are wanted.
+    fn quit(&mut self, saves: bool) -> bool {
+        if saves && !self.unsaved.is_empty() {
+            self.save_unsaved();
+        }
         self.stop(saves);
         self.writer.wait();
+        if saves && !self.unsaved.is_empty() {
+            return false;
+        }
         self.outlet.send(Update::Gone);
-    }
-}
-
-/// How a film of no scene is shown at first.
-fn plain_picture(film: &SavedFilm) -> PictureSettings {
-    let tone_mapping = ToneMapping::Reinhard { pre_scale: 4.0, post_scale: 1.2, burn: 6.0 };
-    // Reinhard's operator does not look at it; the other two get a middling camera: f/8, 1/125 s.
-    let exposure = Exposure { aperture_area: 1.5e-5, lens_sensor_dist: 0.035, duration: 0.008 };
-    let said = film.record.as_ref().and_then(|record| record.setting(FOREGROUND_ALPHA));
-    PictureSettings {
-        foreground_alpha: said == Some("true"),
-        ..PictureSettings::plain(tone_mapping, exposure)
+        true
     }
 }

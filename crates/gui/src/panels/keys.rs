@@ -29,7 +29,7 @@ const COMMANDS: &[Row] = &[
         }
     }),
     (Modifiers::COMMAND, &[Key::S], words::SAVE_NOW, |state, _| {
-        if state.has_growing_film() {
+        if state.can_save_now() {
             state.command(Command::SaveAll);
         }
     }),

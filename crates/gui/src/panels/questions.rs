@@ -14,6 +14,7 @@ pub fn questions(context: &Context, state: &mut State) {
     state.question = match question {
         Question::Close => closing(context, state),
         Question::Unsaved(action) => unsaved(context, state, action),
+        Question::UnsavedFilm(action) => unsaved_film(context, state, action),
         Question::Path(line) => path(context, state, line),
     };
 }
@@ -23,7 +24,7 @@ fn closing(context: &Context, state: &mut State) -> Option<Question> {
     let answers = [words::CLOSE_SAVE, words::CLOSE_DISCARD, words::CLOSE_NOT];
     match choose(context, words::CLOSE_HEAD, words::CLOSE_TEXT, answers) {
         None => return Some(Question::Close),
-        Some(0) => state.command(Command::Quit { saves: true }),
+        Some(0) => state.save_and_close(),
         Some(1) => state.command(Command::Quit { saves: false }),
         Some(_) => {}
     }
@@ -38,6 +39,21 @@ fn unsaved(context: &Context, state: &mut State, action: Box<Action>) -> Option<
         Some(0) => state.act(Action::SaveElements(action)),
         Some(1) => {
             state.discard_unsaved();
+            state.act(*action);
+        }
+        Some(_) => {}
+    }
+    None
+}
+
+/// What becomes of films that could not be saved before something is done.
+fn unsaved_film(context: &Context, state: &mut State, action: Box<Action>) -> Option<Question> {
+    let answers = [words::FILM_SAVE, words::UNSAVED_DISCARD, words::CANCEL];
+    match choose(context, words::FILM_HEAD, &words::unsaved_films(state.unsaved_films), answers) {
+        None => return Some(Question::UnsavedFilm(action)),
+        Some(0) => state.save_films_before(action),
+        Some(1) => {
+            state.discard_films();
             state.act(*action);
         }
         Some(_) => {}

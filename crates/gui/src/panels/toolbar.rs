@@ -59,7 +59,7 @@ fn open(ui: &mut Ui, state: &mut State) {
 fn save(ui: &mut Ui, state: &mut State) {
     ui.add_enabled_ui(state.picture.is_some(), |ui| {
         ui.menu_button(words::SAVE, |ui| {
-            if ui.add_enabled(state.has_growing_film(), Button::new(words::SAVE_NOW)).clicked() {
+            if ui.add_enabled(state.can_save_now(), Button::new(words::SAVE_NOW)).clicked() {
                 state.command(Command::SaveAll);
                 ui.close();
             }

@@ -39,6 +39,7 @@ impl State {
             }
             Update::Line(line) => self.log.add(line),
             Update::Done(how) => self.turn_has_ended(how),
+            Update::Unsaved(n) => self.take_unsaved_films(n),
             Update::Gone => self.act(Action::Close),
         }
     }

@@ -96,6 +96,16 @@ pub fn set_aside(n: usize, path: &str) -> String {
     )
 }
 
+/// Films that could not be saved and would be lost.
+pub fn unsaved_films(n: usize) -> String {
+    match n {
+        1 => "Its film is in memory only and would be lost. The log says what went wrong.".to_owned(),
+        n => format!(
+            "The films of {n} renders are in memory only and would be lost. The log says what went wrong."
+        ),
+    }
+}
+
 /// The ending of a file.
 pub fn ending(what: OneFile) -> &'static str {
     match what {

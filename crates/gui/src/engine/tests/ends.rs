@@ -2,19 +2,27 @@
 
 use super::{Folder, PATIENCE, even_light, wait_for};
 use crate::engine::{Command, Engine, Phase, Request, Update};
+use crate::part::Part;
 use crate::queue::Turn;
+use crate::work::Work;
 use eframe::egui::Context;
+use indigo_front::flags::Arguments;
 use indigo_render::output::OneFile;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// An engine that renders even light without end, of which `picture.png` and the film are written, but not in time.
 fn rendering(folder: &Folder) -> Engine {
+    rendering_to(folder, "picture.png")
+}
+
+/// The same with another name.
+fn rendering_to(folder: &Folder, picture: &str) -> Engine {
     let settings = "<image_save_period>1e6</image_save_period><save_igi>true</save_igi></renderer_settings>";
     folder.write("scene.igs", &even_light().replace("</renderer_settings>", settings));
     let engine = Engine::new(&Context::default()).expect("threads");
     let mut request = Request { starts: true, ..folder.request() };
-    request.arguments.output = Some(folder.path("picture.png"));
+    request.arguments.output = Some(folder.path(picture));
     engine.send(Command::Open(Box::new(request)));
     wait_for(&engine, "render", |update| matches!(update, Update::Phase(Phase::Rendering)).then_some(()));
     engine
@@ -95,4 +103,88 @@ fn a_scene_with_errors_has_had_its_turn() {
         _ => None,
     });
     assert_eq!(how, Turn::Failed);
+}
+
+/// An engine with a film that could not be saved: where its folder was there is a file.
+fn unsaved(folder: &Folder) -> Engine {
+    let away = folder.0.join("away");
+    std::fs::create_dir(&away).expect("a folder");
+    let engine = rendering_to(folder, "away/picture.png");
+    std::fs::remove_dir_all(&away).expect("our own files");
+    std::fs::write(&away, "").expect("a file in the way");
+    engine.send(Command::Stop);
+    let (mut left, mut how) = (None, None);
+    wait_for(&engine, "end", |update| {
+        match update {
+            Update::Unsaved(n) => left = Some(n),
+            Update::Done(turn) => how = Some(turn),
+            _ => {}
+        }
+        left.zip(how)
+    });
+    assert_eq!((left, how), (Some(1), Some(Turn::Failed)));
+    engine
+}
+
+/// The disk has room again.
+fn make_room(folder: &Folder) {
+    std::fs::remove_file(folder.0.join("away")).expect("our own file");
+    std::fs::create_dir(folder.0.join("away")).expect("a folder");
+}
+
+fn n_unsaved(update: Update) -> Option<usize> {
+    match update {
+        Update::Unsaved(n) => Some(n),
+        Update::Gone => panic!("it has ended"),
+        _ => None,
+    }
+}
+
+#[test]
+fn a_film_that_cannot_be_saved_is_kept_until_it_is() {
+    let folder = Folder::new("full");
+    let engine = unsaved(&folder);
+    // Neither another part of the picture nor the end take it away, and nor does trying again.
+    engine.send(Command::SetRegion(Some([[0, 0], [4, 4]]), work()));
+    engine.send(Command::SaveAll);
+    assert_eq!(wait_for(&engine, "answer", n_unsaved), 1);
+    engine.send(Command::Quit { saves: true });
+    assert_eq!(wait_for(&engine, "answer", n_unsaved), 1);
+    make_room(&folder);
+    engine.send(Command::SaveAll);
+    assert_eq!(wait_for(&engine, "answer", n_unsaved), 0);
+    assert!(Path::new(&folder.path("away/picture.png")).exists());
+    engine.send(Command::Quit { saves: true });
+    wait_for(&engine, "end", |update| matches!(update, Update::Gone).then_some(()));
+}
+
+/// A queue does not wait for anybody, and the disk may have room again in the morning.
+#[test]
+fn a_film_that_cannot_be_saved_outlives_the_next_scene() {
+    let folder = Folder::new("next");
+    let engine = unsaved(&folder);
+    let mut request = folder.request();
+    request.arguments.output = Some(folder.path("next.png"));
+    engine.send(Command::Open(Box::new(request)));
+    wait_for(&engine, "next scene", |update| matches!(update, Update::Scene(..)).then_some(()));
+    make_room(&folder);
+    engine.send(Command::Quit { saves: true });
+    wait_for(&engine, "end", |update| matches!(update, Update::Gone).then_some(()));
+    assert!(Path::new(&folder.path("away/picture.png")).exists());
+}
+
+#[test]
+fn a_film_that_is_gone_on_with_is_saved_with_what_is_added() {
+    let folder = Folder::new("on");
+    let engine = unsaved(&folder);
+    make_room(&folder);
+    engine.send(Command::Start(work(), Box::new(Part::of(&Arguments::default()))));
+    assert_eq!(wait_for(&engine, "answer", n_unsaved), 0);
+    engine.send(Command::Quit { saves: true });
+    wait_for(&engine, "end", |update| matches!(update, Update::Gone).then_some(()));
+    assert!(Path::new(&folder.path("away/picture.png")).exists());
+}
+
+fn work() -> Work {
+    Work { threads: 1, halt_time: (false, 1.0), halt_spp: (false, 1), halt_error: (false, 1.0) }
 }

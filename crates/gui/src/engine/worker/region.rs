@@ -21,11 +21,15 @@ impl Worker {
         if self.run.as_ref().is_some_and(Run::has_slaves) {
             return self.say(Weight::Error, words::REGION_OF_MANY);
         }
+        if !self.unsaved.is_empty() {
+            // The window asks before; this wish came before it knew.
+            return self.say(Weight::Error, words::REGION_OF_UNSAVED);
+        }
         let was_at_work = self.run.as_ref().is_some_and(|run| !run.rests());
         let waiting = self.region.take().and_then(|wish| wish.work);
         self.stop(true);
-        if self.run.is_some() {
-            // Its files could not be written, which was told: nothing is lost for a slip of the mouse.
+        if !self.unsaved.is_empty() {
+            // Its files could not be written, which was told: it can be gone on with after a slip of the mouse.
             return;
         }
         self.film = None;

@@ -12,10 +12,13 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 impl Worker {
-    /// Writes all files of the render. It writes them itself, so that no older film can take a newer one's place.
+    /// Writes all files of the render, and of those before it that could not be saved. It writes them itself, so that no older film can take a newer one's place.
     pub(super) fn save_all(&mut self) {
         if let Some(run) = &mut self.run {
             run.save_by_wish();
+        }
+        if !self.unsaved.is_empty() {
+            self.save_unsaved();
         }
     }
 

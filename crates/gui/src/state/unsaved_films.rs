@@ -1,0 +1,112 @@
+//! Films that are in memory alone, since they could not be saved, and what waits for them.
+
+use super::State;
+use crate::action::Action;
+use crate::engine::Command;
+use crate::question::Question;
+
+impl State {
+    /// Whether there is a film to be saved now: one that grows, or one that could not be saved.
+    pub fn can_save_now(&self) -> bool {
+        self.has_growing_film() || self.unsaved_films > 0
+    }
+
+    /// Closes the window once everything is saved.
+    pub fn save_and_close(&mut self) {
+        self.after_saving = Some(Action::TryToClose.into());
+        self.command(Command::Quit { saves: true });
+    }
+
+    /// Tries to save all films once more, and goes on with what is to be done then.
+    pub fn save_films_before(&mut self, action: Box<Action>) {
+        self.after_saving = Some(action);
+        self.command(Command::SaveAll);
+    }
+
+    /// Gives all of them up.
+    pub fn discard_films(&mut self) {
+        self.unsaved_films = 0;
+        self.command(Command::DiscardUnsaved);
+    }
+
+    /// So many are in memory alone now. What was to be done when all are saved is done, or asked about.
+    pub(super) fn take_unsaved_films(&mut self, n: usize) {
+        self.unsaved_films = n;
+        match self.after_saving.take() {
+            Some(action) if n == 0 => self.act(*action),
+            Some(action) => self.ask(Question::UnsavedFilm(action)),
+            None => {}
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::Update;
+    use crate::recent::Recent;
+    use indigo_front::flags::Arguments;
+
+    fn state() -> State {
+        State::new(Arguments::default(), Recent::default())
+    }
+
+    fn work() -> crate::work::Work {
+        let halts = ((false, 1.0), (false, 1), (false, 1.0));
+        crate::work::Work { threads: 1, halt_time: halts.0, halt_spp: halts.1, halt_error: halts.2 }
+    }
+
+    /// What the user is asked, which is as good as answered then.
+    fn asked(state: &mut State) -> Option<Question> {
+        state.question.take()
+    }
+
+    #[test]
+    fn nothing_takes_the_place_of_a_film_that_is_in_no_file() {
+        let losing = || {
+            [
+                Action::Open("b.igs".into()),
+                Action::Restart,
+                Action::RunQueue,
+                Action::TryToClose,
+                Action::Command(Command::SetRegion(None, work())),
+            ]
+        };
+        let mut state = state();
+        assert!(losing().into_iter().all(|action| state.allowed(action).is_some()), "all is saved");
+        state.take(Update::Unsaved(1));
+        assert!(state.can_save_now());
+        for action in losing() {
+            assert!(state.allowed(action).is_none());
+            assert!(matches!(asked(&mut state), Some(Question::UnsavedFilm(_))));
+        }
+        assert!(matches!(state.question_before_closing(), Some(Question::UnsavedFilm(_))));
+        for action in [Action::Open("picture.png".into()), Action::NextInQueue] {
+            assert!(state.allowed(action).is_some(), "nothing is lost by that");
+        }
+    }
+
+    #[test]
+    fn what_waits_for_a_film_is_done_when_it_is_saved() {
+        let mut state = state();
+        for (left, is_done) in [(1, false), (0, true)] {
+            state.save_films_before(Action::Restart.into());
+            assert!(matches!(state.actions.pop(), Some(Action::Command(Command::SaveAll))));
+            state.take(Update::Unsaved(left));
+            assert_eq!(matches!(state.actions.pop(), Some(Action::Restart)), is_done);
+            assert_eq!(asked(&mut state).is_some(), !is_done, "it is asked again");
+        }
+        state.take(Update::Unsaved(0));
+        assert!(state.actions.is_empty(), "it is done once");
+    }
+
+    #[test]
+    fn a_window_whose_film_cannot_be_saved_asks_before_it_closes() {
+        let mut state = state();
+        state.save_and_close();
+        assert!(matches!(state.actions.pop(), Some(Action::Command(Command::Quit { saves: true }))));
+        state.take(Update::Unsaved(1));
+        let Some(Question::UnsavedFilm(action)) = asked(&mut state) else { panic!("nothing is asked") };
+        assert!(matches!(*action, Action::TryToClose));
+    }
+}
