@@ -11,8 +11,8 @@ use crate::panels::{self, Textures};
 use crate::question::{PathLine, Question};
 use crate::recent::Recent;
 use crate::scene_file::SceneFile;
-use crate::state::{Foot, Picture, State};
-use crate::{theme, words};
+use crate::state::{Foot, State};
+use crate::{signals, theme, words};
 use eframe::egui::{
     self, CentralPanel, ColorImage, Context, Frame, Margin, Panel, TextureFilter, TextureOptions, Ui,
     ViewportCommand,
@@ -33,7 +33,7 @@ enum Answer {
     /// The desktop cannot ask for it.
     NoDialog(PathLine),
     /// A picture to compare with.
-    Comparison(PathBuf, Result<ColorImage, String>),
+    Comparison(PathBuf, Result<Arc<ColorImage>, String>),
     /// The elements of a scene.
     Elements(Box<Result<SceneFile, String>>),
     /// What was written into a scene.
@@ -61,6 +61,11 @@ impl App {
         let engine = Engine::new(&context.egui_ctx)
             .map_err(|error| state.log.add(Line { weight: Weight::Error, text: error.to_string() }))
             .ok();
+        if let Some(engine) = &engine
+            && let Err(reason) = signals::catch(engine.quitter())
+        {
+            state.log.add(Line { weight: Weight::Warning, text: words::no_signals(&reason) });
+        }
         if let Some(path) = state.arguments.files.first().cloned() {
             state.act(Action::Open(path.into()));
         } else if state.part.role == Some(Role::Slave) {
@@ -90,6 +95,7 @@ impl App {
             for update in engine.news() {
                 self.state.take(update);
             }
+            engine.desk.set_longest_side(context.input(|input| input.max_texture_side));
             if let Some(shown) = engine.desk.take() {
                 self.show(shown, context);
             }
@@ -99,8 +105,8 @@ impl App {
                 Answer::Path(ask, path) => self.asked(ask, path, context),
                 Answer::NoDialog(line) => self.state.question = Some(Question::Path(line)),
                 Answer::Comparison(path, Ok(image)) => {
-                    self.textures.other = Some(context.load_texture("other", image.clone(), options()));
-                    self.state.comparison.picture = Some((path, Arc::new(image)));
+                    self.textures.other = Some(context.load_texture("other", Arc::clone(&image), options()));
+                    self.state.comparison.picture = Some((path, image));
                     if self.state.comparison.layout == comparison::Layout::Off {
                         self.state.comparison.layout = comparison::Layout::Wipe;
                     }
@@ -191,19 +197,15 @@ impl App {
     }
 
     fn show(&mut self, shown: Shown, context: &Context) {
-        let image = Arc::clone(&shown.image);
+        let (image, size) = (Arc::clone(&shown.texture), shown.image.size);
         match &mut self.textures.render {
-            Some(texture) if texture.size() == image.size => texture.set(image, options()),
-            texture => *texture = Some(context.load_texture("render", image, options())),
+            Some((texture, shown_size)) if texture.size() == image.size => {
+                texture.set(image, options());
+                *shown_size = size;
+            }
+            render => *render = Some((context.load_texture("render", image, options()), size)),
         }
-        self.state.picture = Some(Picture {
-            size: shown.image.size,
-            image: shown.image,
-            histogram: shown.histogram,
-            light: shown.light,
-            lux_seconds_per_nit: shown.lux_seconds_per_nit,
-            time: shown.time,
-        });
+        self.state.picture = Some(shown);
     }
 
     /// Does all that was asked for, and what that asks for in turn.

@@ -1,5 +1,6 @@
 //! A saved picture that the render is compared with.
 
+use crate::shrink;
 use eframe::egui::{Color32, ColorImage};
 use indigo_formats::image::{Image, Pixels, decode};
 use indigo_render::disk::read_limited;
@@ -39,15 +40,15 @@ impl Default for Comparison {
     }
 }
 
-/// Reads a picture as a screen shows it.
+/// Reads a picture as a screen shows it, with no side longer than so many pixels.
 ///
 /// # Errors
 /// What is wrong with the file.
-pub fn read(path: &Path) -> Result<ColorImage, String> {
+pub fn read(path: &Path, longest_side: usize) -> Result<Arc<ColorImage>, String> {
     let name = path.display().to_string();
     let bytes = read_limited(path).map_err(|error| format!("{name}: {error}"))?;
     let image = decode(&name, &bytes).map_err(|error| format!("{name}: {error}"))?;
-    Ok(on_screen(&image))
+    Ok(shrink::to_fit(&Arc::new(on_screen(&image)), longest_side))
 }
 
 fn on_screen(image: &Image) -> ColorImage {

@@ -13,6 +13,8 @@ mod question;
 mod queue;
 mod recent;
 mod scene_file;
+mod shrink;
+mod signals;
 mod state;
 mod theme;
 mod view;

@@ -11,7 +11,7 @@ pub use pointing::{Gesture, between};
 use crate::action::Action;
 use crate::comparison::Comparison;
 use crate::controls::Controls;
-use crate::engine::{Command, Histogram, LoadedFacts, Phase};
+use crate::engine::{Command, LoadedFacts, Phase, Shown};
 use crate::log::{Finding, Log, SourceView};
 use crate::part::Part;
 use crate::question::Question;
@@ -22,7 +22,6 @@ use crate::view::View;
 use crate::work::{Mode, Work};
 use eframe::egui::Pos2;
 use indigo_diag::SourceMap;
-use indigo_film::XyzImage;
 use indigo_front::flags::{Arguments, Role};
 use indigo_imaging::PictureSettings;
 use indigo_net::master::Status;
@@ -77,22 +76,6 @@ pub enum Foot {
     Slaves,
 }
 
-/// The last picture that was developed.
-pub struct Picture {
-    /// Width and height.
-    pub size: [usize; 2],
-    /// Red, green and blue of a pixel as shown.
-    pub image: Arc<eframe::egui::ColorImage>,
-    /// How often each brightness is there.
-    pub histogram: Histogram,
-    /// XYZ in cd/m² of each pixel.
-    pub light: Arc<XyzImage>,
-    /// From cd/m² to lux·s.
-    pub lux_seconds_per_nit: f64,
-    /// How long developing took.
-    pub time: Duration,
-}
-
 /// See the module.
 #[expect(clippy::struct_excessive_bools, reason = "each is a wish of its own")]
 pub struct State {
@@ -142,8 +125,8 @@ pub struct State {
     pub part: Part,
     /// How things stand with slaves, where this is or was their master.
     pub slaves: Option<Box<Status>>,
-    /// The picture.
-    pub picture: Option<Picture>,
+    /// The last picture that was developed.
+    pub picture: Option<Shown>,
     /// Where it is on the screen.
     pub view: View,
     /// What the pointer does in it.

@@ -12,6 +12,8 @@ mod samples;
 #[path = "../../tests/stories/screen.rs"]
 #[expect(dead_code, reason = "stories do more with it")]
 mod screen;
+#[path = "../../src/shrink.rs"]
+mod shrink;
 
 use std::path::Path;
 

@@ -95,6 +95,7 @@ fn times(film: &Arc<FilmState>, mapping: &Mapping) -> Vec<f64> {
     let (woken, waking) = channel();
     std::thread::scope(|scope| {
         scope.spawn(|| desk.work(&move || _ = woken.send(())));
+        desk.set_longest_side(SIZE[0] as usize);
         desk.set_settings(settings(0.0));
         desk.set_film(Arc::clone(film));
         wait(&waking, &desk);

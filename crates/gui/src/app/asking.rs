@@ -57,8 +57,9 @@ impl App {
             },
             Ask::Compare => {
                 let (answer, context) = (self.answer.clone(), context.clone());
+                let longest_side = context.input(|input| input.max_texture_side);
                 self.spawn("compare", move || {
-                    let read = comparison::read(&path);
+                    let read = comparison::read(&path, longest_side);
                     drop(answer.send(Answer::Comparison(path, read)));
                     context.request_repaint();
                 });

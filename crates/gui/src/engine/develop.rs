@@ -4,6 +4,7 @@
 //! takes a quarter of the time or less and differs only where bright edges cross pixels, then wholly, unless the next
 //! change has come meanwhile.
 
+use crate::shrink;
 use eframe::egui::{Color32, ColorImage};
 use indigo_film::{FilmState, LightMix, XyzImage};
 use indigo_front::logical_cores;
@@ -24,6 +25,8 @@ pub struct Histogram(pub [[f32; BINS]; 3]);
 pub struct Shown {
     /// Its pixels.
     pub image: Arc<ColorImage>,
+    /// The same as the graphics card takes it: smaller where it takes none so large.
+    pub texture: Arc<ColorImage>,
     /// How often each brightness is there.
     pub histogram: Histogram,
     /// The light on the sensor, a value for each pixel of the picture: XYZ in cd/m².
@@ -39,6 +42,8 @@ pub struct Shown {
 struct Slot {
     film: Option<Arc<FilmState>>,
     settings: Option<PictureSettings>,
+    /// How many pixels the sides of a texture may have.
+    longest_side: Option<usize>,
     closed: bool,
 }
 
@@ -85,6 +90,15 @@ impl Desk {
     pub fn set_settings(&self, settings: PictureSettings) {
         self.slot().settings = Some(settings);
         self.changed.notify_all();
+    }
+
+    /// No texture has longer sides from now on. Nothing is developed before that is known.
+    pub fn set_longest_side(&self, pixels: usize) {
+        let mut slot = self.slot();
+        if slot.longest_side != Some(pixels) {
+            slot.longest_side = Some(pixels);
+            self.changed.notify_all();
+        }
     }
 
     /// A picture that has been developed since the last call.
@@ -136,7 +150,7 @@ impl Desk {
             if slot.closed {
                 return None;
             }
-            if slot.film.is_some() || slot.settings.is_some() {
+            if slot.longest_side.is_some() && (slot.film.is_some() || slot.settings.is_some()) {
                 return Some((slot.film.take(), slot.settings.take()));
             }
             slot = self.changed.wait(slot).unwrap_or_else(PoisonError::into_inner);
@@ -156,9 +170,16 @@ impl Desk {
         start: Instant,
         wake: &dyn Fn(),
     ) {
-        let (image, histogram) = with_jobs(logical_cores(), || on_screen(&develop_image(from, settings)));
+        let longest_side = self.slot().longest_side.unwrap_or(usize::MAX);
+        let (image, texture, histogram) = with_jobs(logical_cores(), || {
+            let (image, histogram) = on_screen(&develop_image(from, settings));
+            let image = Arc::new(image);
+            let texture = shrink::to_fit(&image, longest_side);
+            (image, texture, histogram)
+        });
         let shown = Shown {
-            image: Arc::new(image),
+            image,
+            texture,
             histogram,
             light: Arc::clone(light),
             lux_seconds_per_nit: settings.exposure.lux_seconds_per_nit(),
@@ -238,7 +259,10 @@ mod tests {
             };
             desk.set_settings(settings(0.25));
             desk.set_film(film(1.0, 2));
+            assert!(waking.recv_timeout(Duration::from_millis(50)).is_err(), "how large may it be?");
+            desk.set_longest_side(2);
             let first = wait().expect("a picture");
+            assert_eq!((first.image.size, first.texture.size), ([4, 3], [2, 2]));
             // 0.25 of full light is code 137.
             assert_eq!(first.image.pixels[5].r(), 137);
             assert_eq!(first.light.pixels.len(), 12);

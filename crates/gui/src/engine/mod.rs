@@ -236,6 +236,12 @@ impl Engine {
         drop(self.commands.send(command));
     }
 
+    /// Ends everything with all files, from wherever it is called.
+    pub fn quitter(&self) -> impl Fn() + Send + use<> {
+        let commands = self.commands.clone();
+        move || drop(commands.send(Command::Quit { saves: true }))
+    }
+
     /// All news since the last call.
     pub fn news(&self) -> Vec<Update> {
         self.updates.try_iter().collect()
@@ -244,6 +250,9 @@ impl Engine {
 
 impl Drop for Engine {
     fn drop(&mut self) {
+        // Who wanted nothing saved has ended it before. Otherwise the window is gone without a question: its display is lost, say.
+        self.send(Command::Quit { saves: true });
+        // A film that cannot be saved is kept for an answer, and nobody is left to give one.
         self.send(Command::Quit { saves: false });
         self.desk.close();
         for thread in self.threads.drain(..) {

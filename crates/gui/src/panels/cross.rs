@@ -82,10 +82,9 @@ mod tests {
     use crate::action::Action;
     use crate::comparison::Layout;
     use crate::controls::Controls;
-    use crate::engine::{BINS, Command, Histogram};
+    use crate::engine::{BINS, Command, Histogram, Shown};
     use crate::panels::{Textures, keys, picture};
     use crate::recent::Recent;
-    use crate::state::Picture;
     use crate::work::Work;
     use eframe::egui::{ColorImage, Key, Modifiers, Role, TextureOptions, Ui};
     use egui_kittest::Harness;
@@ -99,13 +98,14 @@ mod tests {
     const SIZE: [usize; 2] = [41, 21];
 
     /// A picture whose every pixel has a code of its own, in yellowish light.
-    fn shown() -> Picture {
+    fn shown() -> Shown {
         let codes = (0..SIZE[0] * SIZE[1]).map(|i| Color32::from_gray((i % 251) as u8));
         let light = vec![[1.0, 1.0, 0.5, 1.0]; SIZE[0] * SIZE[1]];
         let size = FilmSize::new(SIZE[0] as u32, SIZE[1] as u32, 1).unwrap();
-        Picture {
-            size: SIZE,
-            image: Arc::new(ColorImage::new(SIZE, codes.collect())),
+        let image = Arc::new(ColorImage::new(SIZE, codes.collect()));
+        Shown {
+            texture: Arc::clone(&image),
+            image,
             histogram: Histogram([[0.0; BINS]; 3]),
             light: Arc::new(XyzImage { size, pixels: light, missing: vec![] }),
             lux_seconds_per_nit: 1.0,
@@ -124,7 +124,8 @@ mod tests {
         state.work = Some(Work { threads: 1, halt_time: halts.0, halt_spp: halts.1, halt_error: halts.2 });
         let ui = |ui: &mut Ui, state: &mut State| {
             let image = state.picture.as_ref().map(|picture| Arc::clone(&picture.image)).unwrap();
-            let render = Some(ui.ctx().load_texture("render", image, TextureOptions::NEAREST));
+            let texture = ui.ctx().load_texture("render", image, TextureOptions::NEAREST);
+            let render = Some((texture, SIZE));
             keys(ui.ctx(), state);
             picture(ui, state, &Textures { render, other: None });
         };

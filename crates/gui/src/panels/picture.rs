@@ -15,8 +15,8 @@ const ZOOM_PER_POINT: f32 = 0.004;
 /// The pictures as the graphics card has them.
 #[derive(Default)]
 pub struct Textures {
-    /// The render.
-    pub render: Option<TextureHandle>,
+    /// The render, and the size of its picture: more than that of the texture where the card takes none so large.
+    pub render: Option<(TextureHandle, [usize; 2])>,
     /// What it is compared with.
     pub other: Option<TextureHandle>,
 }
@@ -41,8 +41,8 @@ pub fn picture(ui: &mut Ui, state: &mut State, textures: &Textures) {
         ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
     }
     match &textures.render {
-        Some(render) => {
-            let size = render.size_vec2();
+        Some((render, size)) => {
+            let size = vec2(size[0] as f32, size[1] as f32);
             let panes = Panes::of(area, state);
             interact(ui, state, &response, panes.render, size);
             draw(ui, state, &panes, size, render, textures.other.as_ref());
@@ -201,7 +201,7 @@ fn inspector(ui: &mut Ui, state: &State) {
             cell(400.0, zoom.unwrap_or_default());
             return;
         };
-        let index = y as usize * picture.size[0] + x as usize;
+        let index = y as usize * picture.image.size[0] + x as usize;
         cell(64.0, format!("{x}, {y}"));
         if let Some(shown) = picture.image.pixels.get(index) {
             cell(100.0, format!("RGB {:>3} {:>3} {:>3}", shown.r(), shown.g(), shown.b()));

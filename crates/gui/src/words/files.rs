@@ -96,6 +96,11 @@ pub fn set_aside(n: usize, path: &str) -> String {
     )
 }
 
+/// Nobody hears of the end of a session.
+pub fn no_signals(reason: &str) -> String {
+    format!("a render will not be saved when the session ends: {reason}")
+}
+
 /// Films that could not be saved and would be lost.
 pub fn unsaved_films(n: usize) -> String {
     match n {

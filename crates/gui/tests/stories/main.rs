@@ -2,6 +2,7 @@
 //!
 //! Without `DISPLAY` they fail: `cargo xtask test` provides a display.
 
+mod ends;
 mod network;
 mod screen;
 

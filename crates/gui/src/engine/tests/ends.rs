@@ -188,3 +188,18 @@ fn a_film_that_is_gone_on_with_is_saved_with_what_is_added() {
 fn work() -> Work {
     Work { threads: 1, halt_time: (false, 1.0), halt_spp: (false, 1), halt_error: (false, 1.0) }
 }
+
+/// The window may go without a question: its display is lost, or what draws it fails.
+#[test]
+fn a_render_is_saved_when_the_window_is_lost() {
+    let folder = Folder::new("lost");
+    let engine = rendering(&folder);
+    drop(engine);
+    assert!(Path::new(&folder.path("picture.igi")).exists());
+}
+
+#[test]
+fn a_window_that_is_lost_waits_for_no_answer() {
+    let folder = Folder::new("answer");
+    drop(unsaved(&folder));
+}
