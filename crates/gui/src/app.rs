@@ -294,7 +294,7 @@ impl App {
     /// take a while, in which nothing must look dead.
     fn tend_closing(&mut self, context: &Context) {
         let is_wanted = context.input(|input| input.viewport().close_requested());
-        if !is_wanted || self.is_gone || self.engine.is_none() {
+        if !is_wanted || self.is_gone || self.engine.as_ref().is_none_or(Engine::has_ended) {
             return;
         }
         context.send_viewport_cmd(ViewportCommand::CancelClose);

@@ -253,5 +253,6 @@ texts! {
     FILM_HEAD = "The last render could not be saved";
     FILM_SAVE = "Save again";
     REGION_OF_UNSAVED = "the last render could not be saved: save it again before another region is rendered";
+    DEVELOPING_FAILED = "The picture cannot be developed by an error of the program, which is a bug: please report it";
     SAVING_FAILED = "Saving failed by an error of the program, which is a bug: please report it";
 }

@@ -94,7 +94,7 @@ fn times(film: &Arc<FilmState>, mapping: &Mapping) -> Vec<f64> {
     let desk = Desk::default();
     let (woken, waking) = channel();
     std::thread::scope(|scope| {
-        scope.spawn(|| desk.work(&move || _ = woken.send(())));
+        scope.spawn(|| desk.work(&move || _ = woken.send(()), &|| panic!("a picture cannot be developed")));
         desk.set_longest_side(SIZE[0] as usize);
         desk.set_settings(settings(0.0));
         desk.set_film(Arc::clone(film));

@@ -10,6 +10,7 @@ use indigo_film::{FilmState, LightMix, XyzImage};
 use indigo_front::logical_cores;
 use indigo_imaging::{Picture, PictureSettings, develop_image, on_sensor, preview_light};
 use indigo_render::pool::with_jobs;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -56,6 +57,9 @@ pub struct Desk {
     /// What the last new film took, in microseconds.
     cost: AtomicU64,
 }
+
+/// A film and settings that came since the last picture.
+type News = (Option<Arc<FilmState>>, Option<PictureSettings>);
 
 /// What is kept between pictures.
 #[derive(Default)]
@@ -117,34 +121,42 @@ impl Desk {
         self.changed.notify_all();
     }
 
-    /// Develops until closed, and calls `wake` for each picture.
-    pub fn work(&self, wake: &dyn Fn()) {
+    /// Develops until closed, and calls `wake` for each picture; `fail` for each that cannot be developed, by a bug.
+    pub fn work(&self, wake: &dyn Fn(), fail: &dyn Fn()) {
         let mut kept = Kept::default();
-        while let Some((film, settings)) = self.next() {
-            let start = Instant::now();
-            let is_new_film = film.is_some();
-            kept.film = film.or(kept.film);
-            kept.settings = settings.or(kept.settings);
-            let (Some(film), Some(settings)) = (&kept.film, kept.settings.clone()) else { continue };
-            if is_new_film || kept.sensor.as_ref().is_none_or(|sensor| !sensor.is_of(&settings)) {
-                kept.sensor = with_jobs(logical_cores(), || Sensor::new(film, &settings));
+        while let Some(news) = self.next() {
+            let develops = AssertUnwindSafe(|| self.develop(&mut kept, news, wake));
+            if catch_unwind(develops).is_err() {
+                kept.sensor = None;
+                fail();
             }
-            let Some(Sensor { full, small, .. }) = &kept.sensor else { continue };
-            let is_small_enough = full.size.super_sample() == 1;
-            if !is_new_film && !is_small_enough {
-                self.show(small, small, &settings, start, wake);
-            }
-            if is_new_film || is_small_enough || !self.has_next() {
-                self.show(full, small, &settings, start, wake);
-                if is_new_film {
-                    self.cost.store(start.elapsed().as_micros() as u64, Ordering::Relaxed);
-                }
+        }
+    }
+
+    fn develop(&self, kept: &mut Kept, (film, settings): News, wake: &dyn Fn()) {
+        let start = Instant::now();
+        let is_new_film = film.is_some();
+        kept.film = film.or(kept.film.take());
+        kept.settings = settings.or(kept.settings.take());
+        let (Some(film), Some(settings)) = (&kept.film, kept.settings.clone()) else { return };
+        if is_new_film || kept.sensor.as_ref().is_none_or(|sensor| !sensor.is_of(&settings)) {
+            kept.sensor = with_jobs(logical_cores(), || Sensor::new(film, &settings));
+        }
+        let Some(Sensor { full, small, .. }) = &kept.sensor else { return };
+        let is_small_enough = full.size.super_sample() == 1;
+        if !is_new_film && !is_small_enough {
+            self.show(small, small, &settings, start, wake);
+        }
+        if is_new_film || is_small_enough || !self.has_next() {
+            self.show(full, small, &settings, start, wake);
+            if is_new_film {
+                self.cost.store(start.elapsed().as_micros() as u64, Ordering::Relaxed);
             }
         }
     }
 
     /// Waits for something to do; `None` after the end.
-    fn next(&self) -> Option<(Option<Arc<FilmState>>, Option<PictureSettings>)> {
+    fn next(&self) -> Option<News> {
         let mut slot = self.slot();
         loop {
             if slot.closed {
@@ -252,7 +264,9 @@ mod tests {
         let desk = Desk::default();
         let (woken, waking) = std::sync::mpsc::channel();
         std::thread::scope(|scope| {
-            scope.spawn(|| desk.work(&move || _ = woken.send(())));
+            scope.spawn(|| {
+                desk.work(&move || _ = woken.send(()), &|| panic!("a picture cannot be developed"))
+            });
             let wait = || {
                 waking.recv_timeout(Duration::from_mins(1)).expect("a picture");
                 desk.take()
@@ -273,6 +287,26 @@ mod tests {
             wait();
             desk.set_film(film(2.0, 2));
             assert_eq!(wait().expect("a picture").image.pixels[5].r(), 255);
+            desk.close();
+        });
+    }
+
+    #[test]
+    fn a_picture_that_cannot_be_developed_is_told_and_the_next_is_shown() {
+        let desk = Desk::default();
+        let (told, telling) = std::sync::mpsc::channel();
+        let failed = told.clone();
+        std::thread::scope(|scope| {
+            scope.spawn(|| desk.work(&move || _ = told.send(true), &move || _ = failed.send(false)));
+            let wait = || telling.recv_timeout(Duration::from_mins(1)).expect("an answer");
+            desk.set_longest_side(4);
+            desk.set_settings(settings(0.25));
+            let mut broken = (*film(1.0, 1)).clone();
+            broken.layers[0].sums.truncate(5);
+            desk.set_film(Arc::new(broken));
+            assert!(!wait());
+            desk.set_film(film(1.0, 1));
+            assert!(wait());
             desk.close();
         });
     }

@@ -1,6 +1,6 @@
 //! Loading scenes, each on a thread of its own, which nobody need wait for.
 
-use super::{Command, Request};
+use super::{Command, Request, message_of};
 use crate::log::{Finding, Line, Weight, findings};
 use crate::words;
 use indigo_diag::SourceMap;
@@ -9,6 +9,7 @@ use indigo_front::load::load_scene;
 use indigo_imaging::PictureSettings;
 use indigo_render::saved::read_film;
 use indigo_scene::{OutputSettings, Scene, SceneStats, Stop, TransportSettings};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::Sender;
@@ -74,27 +75,38 @@ impl LoadedFacts {
 pub fn spawn(ticket: u64, request: Request, stop: Stop, to: Sender<Command>) -> std::io::Result<()> {
     let thread = std::thread::Builder::new().name("load".to_owned());
     thread.spawn(move || {
-        let outcome = load(request, &stop);
+        let outcome = guarded(request, |request| load(request, &stop));
         // The engine may have ended.
         drop(to.send(Command::Loaded(ticket, Box::new(outcome))));
     })?;
     Ok(())
 }
 
-fn load(request: Request, stop: &Stop) -> Outcome {
-    let start = Instant::now();
-    let empty = |request, lines| Outcome {
+/// Nothing came of it, for this reason.
+fn nothing(request: Request, text: String) -> Outcome {
+    Outcome {
         request,
         scene: None,
         read: vec![],
         film: None,
         findings: vec![],
         sources: Arc::default(),
-        lines,
-    };
+        lines: vec![Line { weight: Weight::Error, text }],
+    }
+}
+
+/// What `load` makes of a request, also where it fails by a bug: somebody waits for an answer.
+fn guarded(request: Request, load: impl FnOnce(Request) -> Outcome) -> Outcome {
+    let asked = request.clone();
+    catch_unwind(AssertUnwindSafe(|| load(request)))
+        .unwrap_or_else(|panic| nothing(asked, words::failed_by_bug(message_of(&*panic))))
+}
+
+fn load(request: Request, stop: &Stop) -> Outcome {
+    let start = Instant::now();
     let film = match request.film.as_deref().map(read_film).transpose() {
         Ok(film) => film,
-        Err(error) => return empty(request, vec![Line { weight: Weight::Error, text: error.to_string() }]),
+        Err(error) => return nothing(request, error.to_string()),
     };
     match load_scene(&request.path, &request.arguments, Some(stop)) {
         Ok((loaded, read)) => {
@@ -110,6 +122,30 @@ fn load(request: Request, stop: &Stop) -> Outcome {
                 lines: vec![line],
             }
         }
-        Err(message) => empty(request, vec![Line { weight: Weight::Error, text: message }]),
+        Err(message) => nothing(request, message),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::part::Part;
+    use indigo_front::flags::Arguments;
+
+    #[test]
+    fn loading_that_fails_by_a_bug_is_answered() {
+        let arguments = Arguments::default();
+        let request = Request {
+            path: "a.igs".to_owned(),
+            part: Part::of(&arguments),
+            arguments,
+            film: None,
+            starts: true,
+            halts_at: None,
+            kept: None,
+        };
+        let outcome = guarded(request, |_| panic!("a mesh of the test"));
+        assert!(outcome.scene.is_none() && outcome.request.path == "a.igs");
+        assert!(outcome.lines[0].text.contains("a mesh of the test"), "{}", outcome.lines[0].text);
     }
 }

@@ -15,6 +15,7 @@ pub use load::LoadedFacts;
 use crate::log::{Finding, Line, Weight};
 use crate::part::Part;
 use crate::queue::Turn;
+use crate::words;
 use crate::work::Work;
 use eframe::egui;
 use indigo_diag::SourceMap;
@@ -25,6 +26,7 @@ use indigo_net::event::{self, Event};
 use indigo_net::master::Status;
 use indigo_render::output::OneFile;
 use indigo_render::{HaltReason, Progress};
+use std::any::Any;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -68,6 +70,9 @@ pub enum Command {
         /// Whether the render's files are written.
         saves: bool,
     },
+    /// Fail by a bug.
+    #[cfg(test)]
+    Fail,
 }
 
 /// A scene to load.
@@ -197,6 +202,12 @@ impl Messages for Outlet {
     }
 }
 
+/// What a panic says.
+fn message_of(panic: &(dyn Any + Send)) -> &str {
+    let text = panic.downcast_ref::<String>().map(String::as_str);
+    text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no message")
+}
+
 /// Bytes of memory that the program holds, where the system tells.
 fn memory() -> Option<u64> {
     let text = std::fs::read_to_string("/proc/self/status").ok()?;
@@ -223,8 +234,11 @@ impl Engine {
         let developing = Arc::clone(&desk);
         let wake = context.clone();
         let named = |name: &str| std::thread::Builder::new().name(name.to_owned());
-        let developer =
-            named("develop").spawn(move || developing.work(&|| wake.request_repaint_after(SOON)))?;
+        let tell = outlet.clone();
+        let developer = named("develop").spawn(move || {
+            let fail = || tell.line(Weight::Error, words::DEVELOPING_FAILED);
+            developing.work(&|| wake.request_repaint_after(SOON), &fail);
+        })?;
         let worker = worker::Worker::new(orders, commands.clone(), outlet, Arc::clone(&desk))?;
         let worker = named("engine").spawn(move || worker.work())?;
         Ok(Self { commands, updates, desk, threads: vec![developer, worker] })
@@ -240,6 +254,11 @@ impl Engine {
     pub fn quitter(&self) -> impl Fn() + Send + use<> {
         let commands = self.commands.clone();
         move || drop(commands.send(Command::Quit { saves: true }))
+    }
+
+    /// Whether one of its threads has ended: nothing more comes of it then.
+    pub fn has_ended(&self) -> bool {
+        self.threads.iter().any(JoinHandle::is_finished)
     }
 
     /// All news since the last call.

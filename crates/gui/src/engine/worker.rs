@@ -8,10 +8,11 @@ mod source;
 mod unsaved;
 mod writer;
 
-use super::{Command, Desk, Outlet, Phase, Request, Update};
+use super::{Command, Desk, Outlet, Phase, Request, Update, message_of};
 use crate::log::Weight;
 use crate::part::Part;
 use crate::queue::Turn;
+use crate::words;
 use crate::work::Work;
 use indigo_film::SavedFilm;
 use indigo_front::flags::Arguments;
@@ -21,6 +22,7 @@ use indigo_render::HaltReason;
 use indigo_scene::{Scene, Stop};
 use region::RegionWish;
 use run::{BETWEEN_NEWS, Run};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender};
@@ -96,8 +98,26 @@ impl Worker {
         })
     }
 
-    /// Works until told to quit.
+    /// Works until told to quit. What fails by a bug ends the render, with all its files, and not the engine.
     pub fn work(mut self) {
+        while let Err(panic) = catch_unwind(AssertUnwindSafe(|| self.serve())) {
+            self.say(Weight::Error, words::failed_by_bug(message_of(&*panic)));
+            self.give_up_render();
+        }
+    }
+
+    /// Saves the film as far as that can be, whatever has failed.
+    fn give_up_render(&mut self) {
+        match catch_unwind(AssertUnwindSafe(|| self.stop(true))) {
+            Ok(Some(_)) => self.outlet.send(Update::Done(Turn::Failed)),
+            Ok(None) | Err(_) => {
+                (self.run, self.slave) = (None, None);
+                self.fail_to_begin();
+            }
+        }
+    }
+
+    fn serve(&mut self) {
         loop {
             self.try_region();
             match self.next_order() {
@@ -154,6 +174,8 @@ impl Worker {
                 self.develop_unsaved(&picture);
                 self.picture = Some(*picture);
             }
+            #[cfg(test)]
+            Command::Fail => panic!("told so by a test"),
             Command::SaveAll => self.save_all(),
             Command::DiscardUnsaved => self.discard_unsaved(),
             Command::Save(what, path) => self.save(what, path),

@@ -96,6 +96,11 @@ pub fn set_aside(n: usize, path: &str) -> String {
     )
 }
 
+/// Something failed that must not.
+pub fn failed_by_bug(message: &str) -> String {
+    format!("an error of the program, which is a bug, please report it: {message}")
+}
+
 /// Nobody hears of the end of a session.
 pub fn no_signals(reason: &str) -> String {
     format!("a render will not be saved when the session ends: {reason}")

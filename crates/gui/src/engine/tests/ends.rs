@@ -203,3 +203,20 @@ fn a_window_that_is_lost_waits_for_no_answer() {
     let folder = Folder::new("answer");
     drop(unsaved(&folder));
 }
+
+/// A bug in what is beside the render costs neither the film nor the window.
+#[test]
+fn an_engine_that_fails_saves_and_goes_on() {
+    let folder = Folder::new("fails");
+    let engine = rendering(&folder);
+    engine.send(Command::Fail);
+    let how = wait_for(&engine, "end", |update| match update {
+        Update::Done(how) => Some(how),
+        _ => None,
+    });
+    assert_eq!(how, Turn::Failed);
+    assert!(Path::new(&folder.path("picture.igi")).exists());
+    engine.send(Command::Fail);
+    engine.send(Command::Quit { saves: true });
+    wait_for(&engine, "end", |update| matches!(update, Update::Gone).then_some(()));
+}
