@@ -6,7 +6,7 @@ mod writing;
 use crate::action::{Action, Ask, PICTURES, has_ending};
 use crate::comparison;
 use crate::engine::{Command, Engine, Request, Shown};
-use crate::log::{Line, Weight};
+use crate::log::Weight;
 use crate::panels::{self, Textures};
 use crate::question::{PathLine, Question};
 use crate::recent::Recent;
@@ -58,13 +58,12 @@ impl App {
         theme::set(&context.egui_ctx);
         let recent = context.storage.and_then(|storage| storage.get_string(RECENT)).unwrap_or_default();
         let mut state = State::new(arguments, Recent::from_text(&recent));
-        let engine = Engine::new(&context.egui_ctx)
-            .map_err(|error| state.log.add(Line { weight: Weight::Error, text: error.to_string() }))
-            .ok();
+        let engine =
+            Engine::new(&context.egui_ctx).map_err(|error| state.tell(Weight::Error, error.to_string())).ok();
         if let Some(engine) = &engine
             && let Err(reason) = signals::catch(engine.quitter())
         {
-            state.log.add(Line { weight: Weight::Warning, text: words::no_signals(&reason) });
+            state.tell(Weight::Warning, words::no_signals(&reason));
         }
         if let Some(path) = state.arguments.files.first().cloned() {
             state.act(Action::Open(path.into()));
@@ -132,11 +131,11 @@ impl App {
     }
 
     fn complain(&mut self, text: String) {
-        self.state.log.add(Line { weight: Weight::Error, text });
+        self.state.tell(Weight::Error, text);
     }
 
     fn say(&mut self, text: String) {
-        self.state.log.add(Line { weight: Weight::Info, text });
+        self.state.tell(Weight::Info, text);
     }
 
     fn tell_written(&mut self, files: &[PathBuf]) {

@@ -12,7 +12,7 @@ use crate::action::Action;
 use crate::comparison::Comparison;
 use crate::controls::Controls;
 use crate::engine::{Command, LoadedFacts, Phase, Shown};
-use crate::log::{Finding, Log, SourceView};
+use crate::log::{Finding, Line, Log, SourceView, Weight};
 use crate::part::Part;
 use crate::question::Question;
 use crate::queue::Queue;
@@ -220,6 +220,14 @@ impl State {
     /// Asks for something.
     pub fn act(&mut self, action: Action) {
         self.actions.push(action);
+    }
+
+    /// Tells something; what went wrong is shown, whatever was looked at.
+    pub fn tell(&mut self, weight: Weight, text: impl Into<String>) {
+        if weight == Weight::Error {
+            self.foot = Foot::Log;
+        }
+        self.log.add(Line { weight, text: text.into() });
     }
 
     /// Tells the engine.

@@ -8,6 +8,7 @@ use crate::recent::Recent;
 use crate::scene_file::SceneFile;
 use crate::state::State;
 use crate::words;
+use crate::work::Work;
 use eframe::egui::Context;
 use indigo_front::flags::Arguments;
 use indigo_render::output::OneFile;
@@ -18,7 +19,7 @@ use std::sync::mpsc::channel;
 use std::time::{Duration, Instant};
 
 /// Longer than anything takes here, even on a busy machine.
-const PATIENCE: Duration = Duration::from_mins(2);
+pub(super) const PATIENCE: Duration = Duration::from_mins(2);
 /// Columns and rows of a wavy sheet of a million triangles.
 const SHEET: [usize; 2] = [1000, 500];
 
@@ -44,16 +45,16 @@ const SCENE: &str = r#"<?xml version="1.0" encoding="utf-8"?>
 "#;
 
 /// The same scene without the mesh: nothing but even light.
-fn even_light() -> String {
+pub(super) fn even_light() -> String {
     let (start, end) = (SCENE.find("<mesh>").expect("a mesh"), SCENE.find("</scene>").expect("an end"));
     format!("{}{}", &SCENE[..start], &SCENE[end..])
 }
 
 /// A folder of a test's own.
-struct Folder(PathBuf);
+pub(super) struct Folder(PathBuf);
 
 impl Folder {
-    fn new(name: &str) -> Self {
+    pub(super) fn new(name: &str) -> Self {
         let folder = std::env::temp_dir().join(format!("indigo-engine-{}-{name}", std::process::id()));
         drop(std::fs::remove_dir_all(&folder));
         std::fs::create_dir_all(&folder).expect("a folder for the test");
@@ -68,11 +69,11 @@ impl Folder {
         folder
     }
 
-    fn path(&self, name: &str) -> String {
+    pub(super) fn path(&self, name: &str) -> String {
         self.0.join(name).display().to_string()
     }
 
-    fn write(&self, name: &str, text: &str) {
+    pub(super) fn write(&self, name: &str, text: &str) {
         std::fs::write(self.0.join(name), text).expect("a scene is written");
     }
 
@@ -129,6 +130,11 @@ fn write_sheet(path: &Path) -> std::io::Result<()> {
         }
     }
     file.flush()
+}
+
+/// A render without end, by one thread.
+pub(in crate::engine) fn work() -> Work {
+    Work { threads: 1, halt_time: (false, 1.0), halt_spp: (false, 1), halt_error: (false, 1.0) }
 }
 
 /// The first of the news that something is found in.

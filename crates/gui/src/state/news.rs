@@ -37,7 +37,7 @@ impl State {
                 }
                 self.slaves = Some(status);
             }
-            Update::Line(line) => self.log.add(line),
+            Update::Line(line) => self.tell(line.weight, line.text),
             Update::Done(how) => self.turn_has_ended(how),
             Update::Unsaved(n) => self.take_unsaved_films(n),
             Update::Gone => self.act(Action::Close),
@@ -103,7 +103,7 @@ impl State {
 mod tests {
     use super::*;
     use crate::engine::Command;
-    use crate::log::Finding;
+    use crate::log::{Finding, Line};
     use crate::recent::Recent;
     use indigo_front::flags::Arguments;
     use indigo_imaging::{Exposure, PictureSettings, ToneMapping};
@@ -148,5 +148,10 @@ mod tests {
             Finding { weight: Weight::Warning, head: String::new(), full: String::new(), span: None };
         state.take(Update::Findings(vec![finding], Arc::default()));
         assert_eq!(state.foot, Foot::Findings);
+        let line = |weight| Update::Line(Line { weight, text: String::new() });
+        state.take(line(Weight::Warning));
+        assert_eq!(state.foot, Foot::Findings, "nobody is disturbed by less");
+        state.take(line(Weight::Error));
+        assert_eq!(state.foot, Foot::Log);
     }
 }

@@ -4,7 +4,7 @@ use super::{State, Tool};
 use crate::action::{Action, Ask};
 use crate::comparison::Layout;
 use crate::engine::Command;
-use crate::log::{Line, Weight};
+use crate::log::Weight;
 use crate::words;
 use indigo_film::XyzImage;
 
@@ -77,7 +77,7 @@ impl State {
             self.leave_tools();
             self.controls_changed();
         } else {
-            self.log.add(Line { weight: Weight::Warning, text: words::NO_GREY.to_owned() });
+            self.tell(Weight::Warning, words::NO_GREY);
         }
     }
 

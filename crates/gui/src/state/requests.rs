@@ -3,7 +3,7 @@
 use super::State;
 use crate::action::{PICTURES, has_ending};
 use crate::engine::{Kept, Phase, Request};
-use crate::log::{Line, Weight};
+use crate::log::Weight;
 use crate::part::Part;
 use crate::queue::Turn;
 use crate::words;
@@ -53,7 +53,7 @@ impl State {
                 let halts_at = Some(self.queue.halts_at);
                 return Some(Request { halts_at, ..self.request(text, true) });
             }
-            self.log.add(Line { weight: Weight::Error, text: words::not_text(&path) });
+            self.tell(Weight::Error, words::not_text(&path));
             self.queue.end(Turn::Failed);
         }
         None

@@ -1,7 +1,7 @@
 //! Changed elements that are in no file yet, of the open scene and of those before it.
 
 use super::State;
-use crate::log::{Line, Weight};
+use crate::log::Weight;
 use crate::scene_file::SceneFile;
 use crate::words;
 
@@ -21,7 +21,7 @@ impl State {
     pub(super) fn set_file_aside(&mut self) {
         let Some(file) = self.file.take().filter(|file| !file.changes.is_empty()) else { return };
         let text = words::set_aside(file.changes.len(), file.path());
-        self.log.add(Line { weight: Weight::Info, text });
+        self.tell(Weight::Info, text);
         self.set_aside.insert(file.path().to_owned(), file);
     }
 

@@ -1,10 +1,9 @@
 //! How renders end, and what becomes of their films.
 
-use super::{Folder, PATIENCE, even_light, wait_for};
+use super::{Folder, PATIENCE, even_light, wait_for, work};
 use crate::engine::{Command, Engine, Phase, Request, Update};
 use crate::part::Part;
 use crate::queue::Turn;
-use crate::work::Work;
 use eframe::egui::Context;
 use indigo_front::flags::Arguments;
 use indigo_render::output::OneFile;
@@ -183,10 +182,6 @@ fn a_film_that_is_gone_on_with_is_saved_with_what_is_added() {
     engine.send(Command::Quit { saves: true });
     wait_for(&engine, "end", |update| matches!(update, Update::Gone).then_some(()));
     assert!(Path::new(&folder.path("away/picture.png")).exists());
-}
-
-fn work() -> Work {
-    Work { threads: 1, halt_time: (false, 1.0), halt_spp: (false, 1), halt_error: (false, 1.0) }
 }
 
 /// The window may go without a question: its display is lost, or what draws it fails.

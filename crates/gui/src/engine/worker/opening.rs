@@ -61,9 +61,12 @@ impl Worker {
         for line in outcome.lines {
             self.outlet.send(Update::Line(line));
         }
+        if outcome.scene.is_none() {
+            self.say(Weight::Error, words::not_rendered(&outcome.request.path));
+        }
+        // Last, since they are shown then.
         self.outlet.send(Update::Findings(outcome.findings, outcome.sources));
         let Some(scene) = outcome.scene else {
-            self.say(Weight::Error, words::not_rendered(&outcome.request.path));
             return self.fail_to_begin();
         };
         let facts = LoadedFacts::of(&scene);

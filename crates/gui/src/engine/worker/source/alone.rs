@@ -101,6 +101,10 @@ impl Source for Alone {
 
     fn adjust(&mut self, work: &Work, messages: &mut dyn Messages) -> Result<(), HaltReason> {
         let reason = self.stop();
+        if matches!(reason, HaltReason::Failed(_)) {
+            // It would go unsaid, and what failed would fail again.
+            return Err(reason);
+        }
         let film = self.film(messages);
         self.before += self.session.elapsed();
         set(&mut self.options, work, self.before);
@@ -141,5 +145,53 @@ impl Source for Alone {
 
     fn slaves(&self) -> Option<Status> {
         None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::Outlet;
+    use crate::engine::tests::{Folder, PATIENCE, even_light, work};
+    use eframe::egui::Context;
+    use indigo_front::flags::Arguments;
+    use indigo_front::load::load_scene;
+    use indigo_front::prepare::prepare;
+    use indigo_imaging::{LinearImage, Metadata, exr};
+    use std::sync::mpsc::channel;
+    use std::time::Instant;
+
+    /// A render that fails: a texture is gone.
+    fn failing(folder: &Folder, messages: &mut Outlet) -> Alone {
+        let texel = LinearImage { width: 1, height: 1, pixels: vec![[0.5; 4]] };
+        let texture = exr::encode(&texel, &Metadata::default()).expect("a picture");
+        std::fs::write(folder.path("t.exr"), texture).expect("the texture is written");
+        let sphere = "<material><name>m</name><diffuse><albedo_texture><path>t.exr</path></albedo_texture></diffuse>\
+                      </material><sphere><center>0 0 0</center><radius>1</radius><material_name>m</material_name></sphere>\
+                      </scene>";
+        folder.write("scene.igs", &even_light().replace("</scene>", sphere));
+        let arguments = Arguments { output: Some(folder.path("picture.png")), ..Arguments::default() };
+        let (loaded, _) = load_scene(&folder.path("scene.igs"), &arguments, None).expect("it is read");
+        let mut scene = loaded.scene.expect("a sound scene");
+        scene.textures.clear();
+        let named = Some(folder.path("picture.png").into());
+        let prepared = prepare(Arc::new(scene), &[], &arguments, None, named, messages);
+        let prepared = prepared.unwrap_or_else(|_| panic!("it can be written"));
+        let job = prepared.job.clone();
+        Alone::begin(prepared, job, &work(), None, messages).expect("a session")
+    }
+
+    #[test]
+    fn a_failure_is_not_hidden_by_other_conditions() {
+        let folder = Folder::new("hidden");
+        let (updates, _news) = channel();
+        let mut messages = Outlet { updates, context: Context::default() };
+        let mut alone = failing(&folder, &mut messages);
+        let start = Instant::now();
+        while !matches!(alone.step(Duration::from_millis(5), &mut messages).1, Some(HaltReason::Failed(_))) {
+            assert!(start.elapsed() < PATIENCE, "it does not fail");
+        }
+        let adjusted = alone.adjust(&Work { threads: 2, ..work() }, &mut messages);
+        assert!(matches!(adjusted, Err(HaltReason::Failed(_))), "{adjusted:?}");
     }
 }
