@@ -50,7 +50,7 @@ pub enum Action {
     Ask(Ask),
     /// Take a path for what was asked.
     Asked(Ask, PathBuf),
-    /// Load the scene again, with another mode.
+    /// Load the scene anew that was asked for last, as it is rendered now.
     Restart,
     /// Read the scene's elements.
     ReadElements,

@@ -8,6 +8,9 @@ use indigo_render::disk::read_limited;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+/// Pre-scale, post-scale and burn of Reinhard's operator where nothing else is said: those of scenes without a tone mapping.
+pub const PLAIN_REINHARD: [f64; 3] = [4.0, 1.2, 6.0];
+
 /// Which tone mapping is chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mapper {
@@ -60,13 +63,14 @@ pub struct Controls {
 impl Controls {
     /// The controls that stand for settings.
     pub fn of(settings: &PictureSettings) -> Self {
+        let [pre_scale, post_scale, burn] = PLAIN_REINHARD;
         let mut controls = Self {
             lights: settings.lights.clone(),
             mapper: Mapper::Linear,
             scale: 1.0,
-            pre_scale: 4.0,
-            post_scale: 1.2,
-            burn: 6.0,
+            pre_scale,
+            post_scale,
+            burn,
             ev: 0.0,
             iso: 100.0,
             response: Arc::new(Response::display()),

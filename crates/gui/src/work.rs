@@ -78,6 +78,12 @@ impl Work {
         }
     }
 
+    /// One thread without end.
+    #[cfg(test)]
+    pub fn endless() -> Self {
+        Self { threads: 1, halt_time: (false, 1.0), halt_spp: (false, 1), halt_error: (false, 1.0) }
+    }
+
     /// Halts at a number of samples per pixel if nothing else would.
     pub fn halt_by(&mut self, samples: u64) {
         if !(self.halt_time.0 || self.halt_spp.0 || self.halt_error.0) {
@@ -116,7 +122,8 @@ mod tests {
 
     #[test]
     fn only_wanted_conditions_halt() {
-        let work = Work { threads: 1, halt_time: (true, 2.5), halt_spp: (false, 7), halt_error: (true, 3.0) };
+        let work =
+            Work { halt_time: (true, 2.5), halt_spp: (false, 7), halt_error: (true, 3.0), ..Work::endless() };
         let halt = work.halt();
         assert_eq!(halt.time, Some(Duration::from_millis(2500)));
         assert_eq!(halt.samples_per_pixel, None);

@@ -8,7 +8,6 @@ use crate::recent::Recent;
 use crate::scene_file::SceneFile;
 use crate::state::State;
 use crate::words;
-use crate::work::Work;
 use eframe::egui::Context;
 use indigo_front::flags::Arguments;
 use indigo_render::output::OneFile;
@@ -130,11 +129,6 @@ fn write_sheet(path: &Path) -> std::io::Result<()> {
         }
     }
     file.flush()
-}
-
-/// A render without end, by one thread.
-pub(in crate::engine) fn work() -> Work {
-    Work { threads: 1, halt_time: (false, 1.0), halt_spp: (false, 1), halt_error: (false, 1.0) }
 }
 
 /// The first of the news that something is found in.

@@ -120,8 +120,7 @@ mod tests {
         state.controls = Some(Controls::of(&settings));
         state.base = Some(settings);
         state.picture = Some(shown());
-        let halts = ((false, 1.0), (false, 1), (false, 1.0));
-        state.work = Some(Work { threads: 1, halt_time: halts.0, halt_spp: halts.1, halt_error: halts.2 });
+        state.work = Some(Work::endless());
         let ui = |ui: &mut Ui, state: &mut State| {
             let image = state.picture.as_ref().map(|picture| Arc::clone(&picture.image)).unwrap();
             let texture = ui.ctx().load_texture("render", image, TextureOptions::NEAREST);

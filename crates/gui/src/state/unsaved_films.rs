@@ -45,15 +45,11 @@ mod tests {
     use super::*;
     use crate::engine::Update;
     use crate::recent::Recent;
+    use crate::work::Work;
     use indigo_front::flags::Arguments;
 
     fn state() -> State {
         State::new(Arguments::default(), Recent::default())
-    }
-
-    fn work() -> crate::work::Work {
-        let halts = ((false, 1.0), (false, 1), (false, 1.0));
-        crate::work::Work { threads: 1, halt_time: halts.0, halt_spp: halts.1, halt_error: halts.2 }
     }
 
     /// What the user is asked, which is as good as answered then.
@@ -69,7 +65,7 @@ mod tests {
                 Action::Restart,
                 Action::RunQueue,
                 Action::TryToClose,
-                Action::Command(Command::SetRegion(None, work())),
+                Action::Command(Command::SetRegion(None, Work::endless())),
             ]
         };
         let mut state = state();

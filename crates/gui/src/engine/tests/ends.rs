@@ -1,9 +1,10 @@
 //! How renders end, and what becomes of their films.
 
-use super::{Folder, PATIENCE, even_light, wait_for, work};
+use super::{Folder, PATIENCE, even_light, wait_for};
 use crate::engine::{Command, Engine, Phase, Request, Update};
 use crate::part::Part;
 use crate::queue::Turn;
+use crate::work::Work;
 use eframe::egui::Context;
 use indigo_front::flags::Arguments;
 use indigo_render::output::OneFile;
@@ -144,7 +145,7 @@ fn a_film_that_cannot_be_saved_is_kept_until_it_is() {
     let folder = Folder::new("full");
     let engine = unsaved(&folder);
     // Neither another part of the picture nor the end take it away, and nor does trying again.
-    engine.send(Command::SetRegion(Some([[0, 0], [4, 4]]), work()));
+    engine.send(Command::SetRegion(Some([[0, 0], [4, 4]]), Work::endless()));
     engine.send(Command::SaveAll);
     assert_eq!(wait_for(&engine, "answer", n_unsaved), 1);
     engine.send(Command::Quit { saves: true });
@@ -177,7 +178,7 @@ fn a_film_that_is_gone_on_with_is_saved_with_what_is_added() {
     let folder = Folder::new("on");
     let engine = unsaved(&folder);
     make_room(&folder);
-    engine.send(Command::Start(work(), Box::new(Part::of(&Arguments::default()))));
+    engine.send(Command::Start(Work::endless(), Box::new(Part::of(&Arguments::default()))));
     assert_eq!(wait_for(&engine, "answer", n_unsaved), 0);
     engine.send(Command::Quit { saves: true });
     wait_for(&engine, "end", |update| matches!(update, Update::Gone).then_some(()));

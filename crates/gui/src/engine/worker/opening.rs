@@ -1,6 +1,7 @@
 //! Opening scenes and films.
 
 use super::{Open, Worker};
+use crate::controls::PLAIN_REINHARD;
 use crate::engine::{LoadedFacts, Phase, Request, Update, load};
 use crate::log::Weight;
 use crate::queue::Turn;
@@ -124,7 +125,8 @@ impl Worker {
 
 /// How a film of no scene is shown at first.
 fn plain_picture(film: &SavedFilm) -> PictureSettings {
-    let tone_mapping = ToneMapping::Reinhard { pre_scale: 4.0, post_scale: 1.2, burn: 6.0 };
+    let [pre_scale, post_scale, burn] = PLAIN_REINHARD;
+    let tone_mapping = ToneMapping::Reinhard { pre_scale, post_scale, burn };
     // Reinhard's operator does not look at it; the other two get a middling camera: f/8, 1/125 s.
     let exposure = Exposure { aperture_area: 1.5e-5, lens_sensor_dist: 0.035, duration: 0.008 };
     let said = film.record.as_ref().and_then(|record| record.setting(FOREGROUND_ALPHA));

@@ -152,7 +152,7 @@ impl Source for Alone {
 mod tests {
     use super::*;
     use crate::engine::Outlet;
-    use crate::engine::tests::{Folder, PATIENCE, even_light, work};
+    use crate::engine::tests::{Folder, PATIENCE, even_light};
     use eframe::egui::Context;
     use indigo_front::flags::Arguments;
     use indigo_front::load::load_scene;
@@ -178,7 +178,7 @@ mod tests {
         let prepared = prepare(Arc::new(scene), &[], &arguments, None, named, messages);
         let prepared = prepared.unwrap_or_else(|_| panic!("it can be written"));
         let job = prepared.job.clone();
-        Alone::begin(prepared, job, &work(), None, messages).expect("a session")
+        Alone::begin(prepared, job, &Work::endless(), None, messages).expect("a session")
     }
 
     #[test]
@@ -191,7 +191,7 @@ mod tests {
         while !matches!(alone.step(Duration::from_millis(5), &mut messages).1, Some(HaltReason::Failed(_))) {
             assert!(start.elapsed() < PATIENCE, "it does not fail");
         }
-        let adjusted = alone.adjust(&Work { threads: 2, ..work() }, &mut messages);
+        let adjusted = alone.adjust(&Work { threads: 2, ..Work::endless() }, &mut messages);
         assert!(matches!(adjusted, Err(HaltReason::Failed(_))), "{adjusted:?}");
     }
 }
