@@ -254,5 +254,8 @@ texts! {
     FILM_SAVE = "Save again";
     REGION_OF_UNSAVED = "the last render could not be saved: save it again before another region is rendered";
     DEVELOPING_FAILED = "The picture cannot be developed by an error of the program, which is a bug: please report it";
+    ESTIMATE_ERROR = "Estimate the error";
+    ESTIMATE_ERROR_HINT = "Shows how far the picture still is from its end; takes as much memory as two more films";
+    NO_ESTIMATE_OF_MANY = "the relative error is not estimated when slaves render";
     SAVING_FAILED = "Saving failed by an error of the program, which is a bug: please report it";
 }

@@ -62,6 +62,8 @@ pub struct Work {
     pub halt_spp: (bool, u64),
     /// Whether to stop at an estimated relative error, and which, in per cent.
     pub halt_error: (bool, f64),
+    /// Whether the error is estimated where it is no reason to stop.
+    pub estimates_error: bool,
 }
 
 impl Work {
@@ -75,13 +77,20 @@ impl Work {
                 output.halt_samples_per_pixel.map_or(256, |n| n.ceil() as u64),
             ),
             halt_error: (halt_error.is_some(), 100.0 * halt_error.unwrap_or(0.01)),
+            estimates_error: false,
         }
     }
 
     /// One thread without end.
     #[cfg(test)]
     pub fn endless() -> Self {
-        Self { threads: 1, halt_time: (false, 1.0), halt_spp: (false, 1), halt_error: (false, 1.0) }
+        Self {
+            threads: 1,
+            halt_time: (false, 1.0),
+            halt_spp: (false, 1),
+            halt_error: (false, 1.0),
+            estimates_error: false,
+        }
     }
 
     /// Halts at a number of samples per pixel if nothing else would.

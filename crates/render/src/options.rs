@@ -25,6 +25,9 @@ pub struct Options {
     pub seed: u64,
     /// When to stop.
     pub halt: Halt,
+    /// Whether the picture's relative error is estimated, also where it is no reason to stop. Costs the memory of two more films,
+    /// and independent samples then form a low-discrepancy sequence in each half of them only.
+    pub estimates_error: bool,
     /// How often workers hand over what they have gathered.
     pub epoch: Duration,
     /// Whether sums are taken in the order of the work units, so that the film has the same bits for
@@ -38,6 +41,7 @@ impl Default for Options {
             threads: 1,
             seed: 0,
             halt: Halt::default(),
+            estimates_error: false,
             epoch: Duration::from_secs(1),
             deterministic: false,
         }

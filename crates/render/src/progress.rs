@@ -20,8 +20,8 @@ pub struct Progress {
     /// Fraction of the work until the halting condition, if there is one.
     pub fraction: Option<f64>,
     /// The last estimate of the picture's relative error, where [`Halt::relative_error`](crate::Halt::relative_error)
-    /// asks for it: the root mean square, over the pixels, of the luminance's error, over the mean luminance.
-    /// None while no light has been found; 0 where the scene has none.
+    /// or [`Options::estimates_error`](crate::Options::estimates_error) asks for it: the root mean square, over the pixels, of
+    /// the luminance's error, over the mean luminance. None while no light has been found; 0 where the scene has none.
     pub relative_error: Option<f64>,
 }
 

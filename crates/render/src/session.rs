@@ -158,7 +158,7 @@ impl Session {
         film_before: Option<&FilmState>,
     ) -> Result<Self, SessionError> {
         let mut driver = Driver::going_on(&scene, options.seed, first_unit);
-        let estimates_error = options.halt.relative_error.is_some();
+        let estimates_error = options.estimates_error || options.halt.relative_error.is_some();
         if estimates_error {
             driver = driver.in_halves();
         }
@@ -255,8 +255,9 @@ impl Session {
         if self.last_epoch.elapsed() >= self.epoch_now() {
             self.last_epoch = Instant::now();
             self.shared.epoch.fetch_add(1, Ordering::Relaxed);
-            if let Some(wanted) = self.halt.relative_error
-                && self.error.update(&self.shared).is_some_and(|error| error <= wanted)
+            let error = self.error.update(&self.shared);
+            if let (Some(wanted), Some(error)) = (self.halt.relative_error, error)
+                && error <= wanted
                 && self.reason.is_none()
             {
                 self.reason = Some(HaltReason::Error);

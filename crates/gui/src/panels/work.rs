@@ -58,6 +58,11 @@ fn halts(ui: &mut Ui, work: &mut Work) {
         ui.add(DragValue::new(&mut work.halt_error.1).range(0.01..=100.0).speed(0.05).suffix(words::PER_CENT))
     })
     .on_hover_text(words::HALT_ERROR_HINT);
+    // Halting by it estimates it already.
+    ui.add_enabled_ui(!work.halt_error.0, |ui| {
+        row(ui, "", |ui| ui.checkbox(&mut work.estimates_error, words::ESTIMATE_ERROR))
+            .on_hover_text(words::ESTIMATE_ERROR_HINT);
+    });
 }
 
 /// A halting condition that can be switched on.

@@ -38,7 +38,7 @@ fn the_true_error_is_that_asked_for_in_95_percent_of_runs() {
     for seed in 0..RUNS {
         let halt = Halt { relative_error: Some(wanted), ..Halt::default() };
         let options =
-            Options { threads: 1, seed, halt, epoch: Duration::from_millis(1), deterministic: false };
+            Options { threads: 1, seed, halt, epoch: Duration::from_millis(1), ..Options::default() };
         let mut session = Session::start(Arc::clone(&scene), &options).expect("threads");
         let (reason, progress) = finish(&mut session);
         assert_eq!(reason, HaltReason::Error);

@@ -217,6 +217,17 @@ fn dropping_a_session_ends_its_threads() {
     assert_eq!(Arc::strong_count(&scene), 1, "a thread still holds the scene");
 }
 
+/// Whoever wants to know the error need not end by it.
+#[test]
+fn an_error_is_estimated_without_being_a_reason_to_stop() {
+    let halt = Halt { samples_per_pixel: Some(8), ..ENDLESS };
+    for estimates_error in [false, true] {
+        let options = Options { halt, estimates_error, ..options(2, 0) };
+        let (_, reason, progress) = run(&small_scene(1, ""), &options);
+        assert_eq!((reason, progress.relative_error.is_some()), (HaltReason::Samples, estimates_error));
+    }
+}
+
 /// The tile with the sphere, whose texture is gone, is the last of nine; what came before it stays.
 #[test]
 fn a_failure_leaves_what_was_done_before_it() {

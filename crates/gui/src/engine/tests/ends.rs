@@ -216,3 +216,18 @@ fn an_engine_that_fails_saves_and_goes_on() {
     engine.send(Command::Quit { saves: true });
     wait_for(&engine, "end", |update| matches!(update, Update::Gone).then_some(()));
 }
+
+/// Whoever wants to know the error asks for it while the picture grows.
+#[test]
+fn the_error_is_estimated_from_the_moment_that_it_is_asked_for() {
+    let folder = Folder::new("error");
+    let engine = rendering(&folder);
+    let error = |update| match update {
+        Update::Progress(progress, _) => Some(progress.relative_error),
+        _ => None,
+    };
+    assert_eq!(wait_for(&engine, "progress", error), None);
+    engine.send(Command::Adjust(Work { estimates_error: true, ..Work::endless() }));
+    wait_for(&engine, "estimate", |update| error(update).flatten());
+    discard(&engine);
+}

@@ -65,6 +65,7 @@ pub enum Ended {
 /// What the controls say becomes a session's options. Time that was rendered already counts.
 pub fn set(options: &mut Options, work: &Work, rendered: Duration) {
     options.threads = work.threads.clamp(1, MOST_THREADS);
+    options.estimates_error = work.estimates_error;
     let halt = work.halt();
     options.halt = indigo_render::Halt { time: halt.time.map(|time| time.saturating_sub(rendered)), ..halt };
 }

@@ -39,6 +39,8 @@ impl Many {
 fn warn_of_error(work: &Work, messages: &mut dyn Messages) {
     if work.halt_error.0 {
         messages.warn(words::NO_ERROR_OF_MANY);
+    } else if work.estimates_error {
+        messages.warn(words::NO_ESTIMATE_OF_MANY);
     }
 }
 
