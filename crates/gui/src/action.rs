@@ -6,6 +6,8 @@ use indigo_render::output::OneFile;
 use std::path::{Path, PathBuf};
 
 /// Endings of pictures to compare with.
+/// Endings of scenes.
+pub const SCENES: &[&str] = &["igs", "pigs"];
 pub const PICTURES: &[&str] = &["png", "exr", "jpg", "jpeg", "tif", "tiff", "hdr"];
 
 /// What a dialog asks for.

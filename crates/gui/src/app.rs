@@ -10,8 +10,8 @@ use crate::log::Weight;
 use crate::panels::{self, Textures};
 use crate::question::{PathLine, Question};
 use crate::recent::Recent;
-use crate::scene_file::SceneFile;
-use crate::state::{Foot, State};
+use crate::scene_file::{NotSaved, SceneFile};
+use crate::state::{Foot, State, Tab};
 use crate::{signals, theme, words};
 use eframe::egui::{
     self, CentralPanel, ColorImage, Context, Frame, Margin, Panel, TextureFilter, TextureOptions, Ui,
@@ -25,20 +25,8 @@ use writing::Writing;
 
 /// Where the files that were opened lately are remembered.
 const RECENT: &str = "recent";
-
-/// What comes back from threads that wait for the user or a disk.
-enum Answer {
-    /// A path for what was asked.
-    Path(Ask, PathBuf),
-    /// The desktop cannot ask for it.
-    NoDialog(PathLine),
-    /// A picture to compare with.
-    Comparison(PathBuf, Result<Arc<ColorImage>, String>),
-    /// The elements of a scene.
-    Elements(Box<Result<SceneFile, String>>),
-    /// What was written into a scene.
-    Written(Result<Vec<PathBuf>, String>),
-}
+/// Where it is remembered what the panel on the right shows.
+const TAB: &str = "tab";
 
 /// See the module.
 pub struct App {
@@ -59,6 +47,8 @@ impl App {
         let recent = context.storage.and_then(|storage| storage.get_string(RECENT)).unwrap_or_default();
         let mut state = State::new(arguments, Recent::from_text(&recent));
         let engine =
+        let tab = context.storage.and_then(|storage| storage.get_string(TAB)).unwrap_or_default();
+        state.tab = Tab::named(&tab);
             Engine::new(&context.egui_ctx).map_err(|error| state.tell(Weight::Error, error.to_string())).ok();
         if let Some(engine) = &engine
             && let Err(reason) = signals::catch(engine.quitter())
@@ -125,9 +115,7 @@ impl App {
             }
         }
         let dropped = context.input(|input| input.raw.dropped_files.clone());
-        for file in dropped {
-            self.state.act(Action::Open(file.path().to_path_buf()));
-        }
+        self.state.take_dropped(dropped.iter().map(|file| file.path().to_path_buf()).collect());
     }
 
     fn complain(&mut self, text: String) {
@@ -330,6 +318,7 @@ impl eframe::App for App {
         self.tend_closing(&context);
         self.act(&context);
         let title = self.state.path.as_deref().map_or_else(|| words::PROGRAM.to_owned(), words::title);
+        storage.set_string(TAB, words::tab(self.state.tab).to_owned());
         if self.state.title != title {
             self.state.title.clone_from(&title);
             context.send_viewport_cmd(ViewportCommand::Title(title));

@@ -1,6 +1,6 @@
 //! The desktop's own dialogs for paths.
 
-use crate::action::{Ask, PICTURES};
+use crate::action::{Ask, PICTURES, SCENES};
 use crate::words;
 use std::path::PathBuf;
 
@@ -34,7 +34,7 @@ pub fn choose(wanted: &Wanted) -> Result<Option<PathBuf>, NoDialog> {
     };
     let dialog = match wanted.ask {
         Ask::Open => dialog.add_filter(words::SCENES_AND_FILMS, &["igs", "pigs", "igi"]),
-        Ask::Queue => dialog.add_filter(words::SCENES, &["igs", "pigs"]),
+        Ask::Queue => dialog.add_filter(words::SCENES, SCENES),
         Ask::Compare => dialog.add_filter(words::PICTURES, PICTURES),
         Ask::Save(what) => dialog.add_filter(words::ending(what), &[words::ending(what)]),
         Ask::Key | Ask::NewKey => dialog,

@@ -1,5 +1,7 @@
 //! All that the window shows and remembers, as plain data.
 
+mod developing;
+mod dropped;
 mod news;
 mod pointing;
 mod requests;
@@ -19,6 +21,7 @@ use crate::queue::Queue;
 use crate::recent::Recent;
 use crate::scene_file::SceneFile;
 use crate::view::View;
+use crate::words;
 use crate::work::{Mode, Work};
 use eframe::egui::Pos2;
 use indigo_diag::SourceMap;
@@ -62,6 +65,11 @@ pub enum Tab {
 impl Tab {
     /// All of them.
     pub const ALL: [Self; 5] = [Self::Picture, Self::Render, Self::Scene, Self::Queue, Self::Network];
+
+    /// By its name, or the first where none has that name.
+    pub fn named(name: &str) -> Self {
+        Self::ALL.into_iter().find(|tab| words::tab(*tab) == name).unwrap_or_default()
+    }
 }
 
 /// What the panel at the bottom shows.

@@ -85,10 +85,12 @@ mod tests {
     use crate::engine::{BINS, Command, Histogram, Shown};
     use crate::panels::{Textures, keys, picture};
     use crate::recent::Recent;
+    use crate::words;
     use crate::work::Work;
+    use eframe::egui::accesskit::Live;
     use eframe::egui::{ColorImage, Key, Modifiers, Role, TextureOptions, Ui};
     use egui_kittest::Harness;
-    use egui_kittest::kittest::Queryable as _;
+    use egui_kittest::kittest::{NodeT as _, Queryable as _};
     use indigo_film::{FilmSize, XyzImage};
     use indigo_front::flags::Arguments;
     use indigo_imaging::{Exposure, PictureSettings, ToneMapping};
@@ -159,6 +161,10 @@ mod tests {
         let code = (21 + SIZE[0]) % 251;
         let shown = format!("RGB {code:>3} {code:>3} {code:>3}");
         assert!(harness.query_by_label(&shown).is_some(), "{shown}");
+        let said = words::at_cross([21, 1], [code as u8; 3], 1.0);
+        let said = harness.query_by_label_contains(said.split(',').next().unwrap_or_default());
+        let said = said.expect("a screen reader says it");
+        assert_eq!(said.accesskit_node().live(), Live::Polite);
         // It stays within the picture.
         press(&mut harness, &[far(Key::ArrowUp), far(Key::ArrowRight), far(Key::ArrowRight)]);
         assert_eq!(harness.state().cross, Some([40, 0]));

@@ -4,6 +4,7 @@ use super::cross;
 use crate::comparison::Layout;
 use crate::state::{State, Tool};
 use crate::{theme, words};
+use eframe::egui::accesskit::Live;
 use eframe::egui::{
     Color32, CursorIcon, EventFilter, Id, Painter, PointerButton, Rect, Response, RichText, Role, Sense,
     Stroke, StrokeKind, TextureHandle, Ui, Vec2, WidgetInfo, pos2, vec2,
@@ -55,6 +56,7 @@ pub fn picture(ui: &mut Ui, state: &mut State, textures: &Textures) {
     if response.has_focus() {
         ui.painter().rect_stroke(area, 0.0, ui.visuals().selection.stroke, StrokeKind::Inside);
     }
+    announce(ui, state, area);
     let mut line = ui.new_child(eframe::egui::UiBuilder::new().max_rect(line.shrink2(vec2(8.0, 0.0))));
     inspector(&mut line, state);
 }
@@ -186,6 +188,20 @@ fn welcome(ui: &Ui, area: Rect, state: &State) {
     ui.painter().text(area.center(), eframe::egui::Align2::CENTER_CENTER, text, font, colour);
 }
 
+/// Has a screen reader say what is at the cross, whenever that is something else.
+fn announce(ui: &Ui, state: &State, area: Rect) {
+    let (Some(at), Some(picture)) = (state.cross, &state.picture) else { return };
+    let index = at[1] as usize * picture.image.size[0] + at[0] as usize;
+    let (Some(shown), Some(light)) = (picture.image.pixels.get(index), picture.light.pixels.get(index))
+    else {
+        return;
+    };
+    let text = words::at_cross(at, [shown.r(), shown.g(), shown.b()], light[1]);
+    let node = ui.interact(Rect::from_min_size(area.min, Vec2::ZERO), Id::unique("cross"), Sense::hover());
+    node.widget_info(|| WidgetInfo::labeled(Role::Status, true, &text));
+    ui.ctx().accesskit_node_builder(node.id, |node| node.set_live(Live::Polite));
+}
+
 /// What is known of the pixel that is pointed at.
 fn inspector(ui: &mut Ui, state: &State) {
     let zoom = state.picture.is_some().then(|| words::view(state.view.is_fitting()));
@@ -197,17 +213,17 @@ fn inspector(ui: &mut Ui, state: &State) {
             });
         };
         let pixel = state.pointed().zip(state.picture.as_ref());
-        let Some(([x, y], picture)) = pixel else {
+        let Some((at, picture)) = pixel else {
             cell(400.0, zoom.unwrap_or_default());
             return;
         };
-        let index = y as usize * picture.image.size[0] + x as usize;
-        cell(64.0, format!("{x}, {y}"));
+        let index = at[1] as usize * picture.image.size[0] + at[0] as usize;
+        cell(64.0, words::pixel(at));
         if let Some(shown) = picture.image.pixels.get(index) {
-            cell(100.0, format!("RGB {:>3} {:>3} {:>3}", shown.r(), shown.g(), shown.b()));
+            cell(100.0, words::code([shown.r(), shown.g(), shown.b()]));
         }
         if let Some([x, y, z, _]) = picture.light.pixels.get(index) {
-            cell(200.0, format!("XYZ {x:>8.3} {y:>8.3} {z:>8.3}"));
+            cell(200.0, words::xyz([*x, *y, *z]));
             cell(100.0, words::luminance(*y));
             cell(110.0, words::exposure(f64::from(*y) * picture.lux_seconds_per_nit));
         }

@@ -217,6 +217,26 @@ pub fn luminance(nits: f32) -> String {
 pub fn exposure(lux_seconds: f64) -> String {
     format!("{lux_seconds:>9.3e} lux·s")
 }
+/// Column and row of a pixel.
+pub fn pixel([x, y]: [u32; 2]) -> String {
+    format!("{x}, {y}")
+}
+
+/// The code of a pixel as it is shown.
+pub fn code([r, g, b]: [u8; 3]) -> String {
+    format!("RGB {r:>3} {g:>3} {b:>3}")
+}
+
+/// What a screen reader says of the pixel at the cross.
+pub fn at_cross([x, y]: [u32; 2], [r, g, b]: [u8; 3], nits: f32) -> String {
+    format!("Pixel {x}, {y}: RGB {r} {g} {b}, {nits:.3} cd/m²")
+}
+
+/// The light of a pixel.
+pub fn xyz([x, y, z]: [f32; 3]) -> String {
+    format!("XYZ {x:>8.3} {y:>8.3} {z:>8.3}")
+}
+
 
 /// The size of a picture.
 pub fn size(size: FilmSize) -> String {
@@ -255,6 +275,11 @@ pub fn remove(name: &str) -> String {
 pub fn findings(n: usize) -> String {
     match n {
         0 => "Scene: no findings".to_owned(),
+/// Scenes that were put into the queue.
+pub fn queued(n: usize) -> String {
+    format!("Put {} into the queue", indigo_front::messages::count(n, "scene"))
+}
+
         n => format!("Scene: {}", indigo_front::messages::count(n, "finding")),
     }
 }
