@@ -39,7 +39,9 @@ fn main() -> ExitCode {
 
 fn run() -> u8 {
     if let Err(message) = cpu::check() {
-        return refuse(&message, FAILED);
+        // It is one of its own already, as the console says it.
+        eprintln!("{message}");
+        return FAILED;
     }
     let arguments = match flags::parse(std::env::args_os().skip(1)) {
         Ok(arguments) => arguments,

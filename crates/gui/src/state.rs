@@ -115,12 +115,16 @@ pub struct State {
     pub unsaved_films: usize,
     /// What is done once they are saved.
     pub after_saving: Option<Box<Action>>,
+    /// A text that is read as a whole, and the panel that it is of.
+    pub reading: Option<(Foot, String)>,
     /// A place in a file that is looked at.
     pub source_view: Option<SourceView>,
     /// How the scene has its picture developed.
     pub base: Option<PictureSettings>,
     /// How it is developed now.
     pub controls: Option<Controls>,
+    /// How it was developed before all controls were put back, until they are moved.
+    pub before_reset: Option<Controls>,
     /// Response curves to choose from.
     pub responses: Vec<(String, PathBuf)>,
     /// How the scene is rendered.
@@ -196,9 +200,11 @@ impl State {
             base: None,
             controls: None,
             responses: crate::controls::responses(),
+            reading: None,
             work: None,
             mode: None,
             mode_is_chosen: false,
+            before_reset: None,
             part: Part::of(&arguments),
             arguments,
             slaves: None,
@@ -288,30 +294,6 @@ impl State {
             self.command(Command::StartSlave(part, Box::new(self.arguments.clone())));
         } else if let Some(work) = self.work {
             self.command(Command::Start(work, part));
-        }
-    }
-
-    /// Sends the controls to where pictures are made.
-    pub fn controls_changed(&mut self) {
-        if let (Some(base), Some(controls)) = (&self.base, &self.controls) {
-            let picture = controls.apply(base);
-            self.command(Command::SetPicture(Box::new(picture)));
-        }
-    }
-
-    /// As the scene has it.
-    pub fn reset_controls(&mut self) {
-        if let Some(base) = &self.base {
-            self.controls = Some(Controls::of(base));
-            self.controls_changed();
-        }
-    }
-
-    /// Makes the picture brighter or darker.
-    pub fn brighten(&mut self, steps: f64) {
-        if let Some(controls) = &mut self.controls {
-            controls.brighten(steps);
-            self.controls_changed();
         }
     }
 }

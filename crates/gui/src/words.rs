@@ -1,10 +1,13 @@
-//! Every word that the window says, in one list, so that it can be read through at once. The list has three parts: here what is
-//! always the same, in `sentences` what depends on what is shown, in `files` what is said of files. No other module holds words
+//! Every word that the window says, in one list, so that it can be read through at once. The list has four parts: here what is
+//! always the same, in `sentences` what depends on what is shown, in `files` what is said of files, in `elements` what is said of
+//! a scene's elements. No other module holds words
 //! for people; what console and window both say is in `indigo_front`.
 
+mod elements;
 mod files;
 mod sentences;
 
+pub use elements::*;
 pub use files::*;
 pub use sentences::*;
 
@@ -66,7 +69,7 @@ texts! {
     GREY_KEY_HINT = "Take a grey point: something that should be grey";
     REGION_KEY_HINT = "Draw a region: only that part is rendered, from the start";
     CROSS_HINT = "Show or hide a cross that reads a pixel's values";
-    PAN_KEY_HINT = "Put away the cross, the grey point or the region";
+    PAN_KEY_HINT = "Close this list; put the cross away, and take no grey point or region";
     LAYOUT_HINT = "Compare side by side, split by a line, or not";
     LINE_HINT = "Move the line of a comparison";
     KEYS_HINT = "Show the keyboard shortcuts";
@@ -98,7 +101,7 @@ texts! {
     WHITE_BALANCE = "White balance";
     WHITE = "White";
     PICK_GREY = "Pick a grey point";
-    NO_GREY = "this point is too dark to have a colour";
+    NO_GREY = "This point is too dark to have a colour";
     OPTICS = "Optics";
     LIGHT_GROUPS = "Lights";
     LIGHT_GROUPS_HINT = "How bright these lights are in the picture: 1 is as they were rendered";
@@ -108,7 +111,8 @@ texts! {
     BLOOM_WEIGHT = "Weight";
     BLOOM_RADIUS = "Radius";
     RESET = "Reset";
-    RESET_HINT = "Back to the scene's settings";
+    RESET_HINT = "Back to the scene's settings; once more: back to yours";
+    UNDO_RESET = "Undo reset";
 }
 
 // The render.
@@ -131,7 +135,7 @@ texts! {
     DRAW_REGION = "Draw…";
     WHOLE_PICTURE = "Whole picture";
     CANCELLED = "Loading was cancelled";
-    NOTHING_TO_SAVE = "there is nothing to save";
+    NOTHING_TO_SAVE = "There is nothing to save";
 }
 
 // The scene.
@@ -186,6 +190,7 @@ texts! {
     QUEUE_END = "Stop after this scene";
     QUEUE_END_HINT = "The next scene is not started";
     ADD = "Add…";
+    QUEUE_HALT_UNIT = " spp";
     REMOVE = "×";
 }
 
@@ -210,8 +215,8 @@ texts! {
     MASTER_AT_WORK = "The slaves are listed at the bottom.";
     SLAVE_AT_WORK = "This machine renders for a master, which has the picture.";
     NO_PAUSE_OF_MANY = "Slaves cannot be paused: stop the render, and continue it later";
-    NO_ERROR_OF_MANY = "the relative error is not estimated when slaves render, so this halting condition has no effect";
-    REGION_OF_MANY = "slaves render what the scene file says, not a region drawn here: render the whole picture, or put render_region into the scene";
+    NO_ERROR_OF_MANY = "The relative error is not estimated when slaves render, so this halting condition has no effect";
+    REGION_OF_MANY = "Slaves render what the scene file says, not a region drawn here: render the whole picture, or put render_region into the scene";
     NO_SLAVES = "No slaves have joined yet.";
     SLAVE_MACHINE = "Machine";
     SLAVE_ADDRESS = "Address";
@@ -227,13 +232,15 @@ texts! {
 // Log and findings.
 texts! {
     LOG = "Log";
-    NO_FINDINGS = "Nothing is wrong with the scene.";
+    NO_FINDINGS = "Nothing is wrong with the scene";
     BACK = "Back to the list";
 }
 
 // Questions, and files.
 texts! {
     CLOSE_HEAD = "A scene is being rendered";
+    COPY = "Copy";
+    COPY_HINT = "Copy this text";
     CLOSE_TEXT = "What should happen to the render when the window closes?";
     CLOSE_SAVE = "Save and close";
     CLOSE_DISCARD = "Close without saving";

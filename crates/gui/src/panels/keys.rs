@@ -61,7 +61,7 @@ const PLAIN: &[Row] = &[
     (Modifiers::NONE, &[Key::I], words::CROSS_HINT, |state, _| state.gesture(Gesture::Cross)),
     (Modifiers::NONE, &[Key::G], words::GREY_KEY_HINT, |state, _| state.set_tool(Tool::Grey)),
     (Modifiers::NONE, &[Key::R], words::REGION_KEY_HINT, |state, _| state.set_tool(Tool::Region)),
-    (Modifiers::NONE, &[Key::Escape], words::PAN_KEY_HINT, |state, _| state.leave_tools()),
+    (Modifiers::NONE, &[Key::Escape], words::PAN_KEY_HINT, |state, _| state.leave()),
     (Modifiers::NONE, &[Key::C], words::LAYOUT_HINT, |state, _| state.next_layout()),
     (Modifiers::NONE, &[Key::Comma, Key::Period], words::LINE_HINT, |state, index| {
         state.move_line(if index == 0 { -LINE_STEP } else { LINE_STEP });

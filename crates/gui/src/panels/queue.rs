@@ -5,7 +5,7 @@ use crate::action::{Action, Ask};
 use crate::queue::Turn;
 use crate::state::State;
 use crate::words;
-use eframe::egui::{Button, DragValue, Role, Ui, WidgetInfo};
+use eframe::egui::{Button, DragValue, Label, Role, Ui, WidgetInfo};
 
 /// See the module.
 pub fn queue(ui: &mut Ui, state: &mut State) {
@@ -23,7 +23,7 @@ pub fn queue(ui: &mut Ui, state: &mut State) {
                 removed = Some(index);
             }
             ui.weak(words::turn(*turn));
-            ui.label(&name).on_hover_text(path.display().to_string());
+            ui.add(Label::new(&name).truncate()).on_hover_text(path.display().to_string());
         });
     }
     if let Some(index) = removed {
@@ -34,7 +34,11 @@ pub fn queue(ui: &mut Ui, state: &mut State) {
     }
     ui.add_space(4.0);
     row(ui, words::QUEUE_HALT, |ui| {
-        ui.add(DragValue::new(&mut state.queue.halts_at).range(1..=u64::from(u32::MAX)))
+        ui.add(
+            DragValue::new(&mut state.queue.halts_at)
+                .range(1..=u64::from(u32::MAX))
+                .suffix(words::QUEUE_HALT_UNIT),
+        )
     })
     .on_hover_text(words::QUEUE_HALT_HINT);
     ui.horizontal(|ui| {

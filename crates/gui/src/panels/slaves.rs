@@ -1,9 +1,10 @@
 //! The table of slaves.
 
+use super::foot::readable;
 use crate::log::Weight;
 use crate::{theme, words};
-use eframe::egui::{Align, Grid, Layout, RichText, ScrollArea, Ui, vec2};
-use indigo_front::messages::{clock, count, scaled};
+use eframe::egui::{Align, Grid, Label, Layout, RichText, ScrollArea, Ui, vec2};
+use indigo_front::messages::{clock, scaled};
 use indigo_net::master::{SlaveStatus, Status};
 
 /// A column: its head, its width in points, and whether its numbers stand at the right.
@@ -19,13 +20,14 @@ const COLUMNS: [(&str, f32, bool); 9] = [
     (words::SLAVE_ERRORS, 50.0, true),
 ];
 
-/// See the module.
-pub fn slaves(ui: &mut Ui, status: Option<&Status>) {
-    let Some(status) = status else { return };
+/// See the module; the error that is to be read as a whole.
+pub fn slaves(ui: &mut Ui, status: Option<&Status>) -> Option<String> {
+    let status = status?;
     if status.slaves.is_empty() && status.own.is_none() {
         ui.weak(words::NO_SLAVES);
-        return;
+        return None;
     }
+    let mut read = None;
     ScrollArea::both().id_salt("slaves").auto_shrink(false).show(ui, |ui| {
         Grid::new("slaves").striped(true).num_columns(COLUMNS.len()).spacing([12.0, 4.0]).show(ui, |ui| {
             for (head, width, is_number) in COLUMNS {
@@ -39,16 +41,20 @@ pub fn slaves(ui: &mut Ui, status: Option<&Status>) {
                 line(ui, &texts, None);
             }
             for slave in &status.slaves {
-                of_slave(ui, slave);
+                if of_slave(ui, slave) {
+                    read.clone_from(&slave.last_error);
+                }
             }
         });
     });
     if status.refused > 0 {
-        ui.weak(words::refused(&count(status.refused as usize, "connection")));
+        ui.weak(words::refused(status.refused));
     }
+    read
 }
 
-fn of_slave(ui: &mut Ui, slave: &SlaveStatus) {
+/// Whether its error is to be read.
+fn of_slave(ui: &mut Ui, slave: &SlaveStatus) -> bool {
     let rate = if slave.presence.is_there() { scaled(slave.samples_per_second) } else { String::new() };
     let texts = [
         &*slave.name,
@@ -61,32 +67,40 @@ fn of_slave(ui: &mut Ui, slave: &SlaveStatus) {
         &slave.last_upload.map(|since| words::ago(&clock(since))).unwrap_or_default(),
         &slave.errors.to_string(),
     ];
-    line(ui, &texts, slave.last_error.as_deref());
+    line(ui, &texts, slave.last_error.as_deref())
 }
 
-/// A line of the table; an error is told where there was one.
-fn line(ui: &mut Ui, texts: &[&str; COLUMNS.len()], error: Option<&str>) {
-    for (text, (_, width, is_number)) in texts.iter().zip(COLUMNS) {
+/// A line of the table; where there was an error it is told, and read as a whole when it is pressed.
+fn line(ui: &mut Ui, texts: &[&str; COLUMNS.len()], error: Option<&str>) -> bool {
+    let mut is_read = false;
+    for (text, (head, width, is_number)) in texts.iter().zip(COLUMNS) {
         let text = RichText::new(*text);
         let text = match error {
             Some(_) => text.color(theme::of_weight(Weight::Warning, ui.visuals())),
             None => text,
         };
-        let response = cell(ui, text, width, is_number);
-        if let Some(error) = error {
-            response.on_hover_text(error);
+        match error {
+            Some(error) if head == words::SLAVE_ERRORS => {
+                is_read |= in_cell(ui, width, is_number, |ui| readable(ui, text, error));
+            }
+            _ => cell(ui, text, width, is_number),
         }
     }
     ui.end_row();
+    is_read
 }
 
-fn cell(ui: &mut Ui, text: RichText, width: f32, is_number: bool) -> eframe::egui::Response {
+fn cell(ui: &mut Ui, text: RichText, width: f32, is_number: bool) {
+    in_cell(ui, width, is_number, |ui| ui.add(Label::new(text).truncate()));
+}
+
+fn in_cell<R>(ui: &mut Ui, width: f32, is_number: bool, add: impl FnOnce(&mut Ui) -> R) -> R {
     let layout =
         if is_number { Layout::right_to_left(Align::Center) } else { Layout::left_to_right(Align::Center) };
     let size = vec2(width, ui.spacing().interact_size.y);
-    ui.allocate_ui_with_layout(size, layout, |ui| {
+    let cell = ui.allocate_ui_with_layout(size, layout, |ui| {
         ui.set_min_width(width);
-        ui.add(eframe::egui::Label::new(text).truncate())
-    })
-    .inner
+        add(ui)
+    });
+    cell.inner
 }

@@ -31,7 +31,8 @@ pub fn tone(ui: &mut Ui, state: &mut State) {
     }
     ui.add_space(10.0);
     ui.horizontal(|ui| {
-        if ui.button(words::RESET).on_hover_text(words::RESET_HINT).clicked() {
+        let reset = if state.undo_of_reset().is_some() { words::UNDO_RESET } else { words::RESET };
+        if ui.button(reset).on_hover_text(words::RESET_HINT).clicked() {
             state.reset_controls();
         }
         let write = Button::new(words::WRITE_SETTINGS);
@@ -235,6 +236,30 @@ mod tests {
         assert!(!harness.state().actions.is_empty(), "the picture is developed anew");
         harness.get_by_label(words::RESET).click();
         harness.run();
-        assert!(harness.state().controls.as_ref().is_some_and(|controls| !controls.bloom));
+        let has_bloom = |harness: &Harness<'_, State>| harness.state().controls.as_ref().map(|c| c.bloom);
+        assert_eq!(has_bloom(&harness), Some(false));
+        // It may have been pressed by mistake.
+        harness.get_by_label(words::UNDO_RESET).click();
+        harness.run();
+        assert_eq!(has_bloom(&harness), Some(true));
+        harness.get_by_label(words::RESET).click();
+        harness.run();
+        harness.get_by_label(words::BLOOM).click();
+        harness.run();
+        assert!(harness.query_by_label(words::UNDO_RESET).is_none(), "what was moved since would be lost");
+    }
+
+    #[test]
+    fn a_response_is_read_elsewhere_and_awaited() {
+        let mut harness = harness();
+        harness.run();
+        harness.get_by_role_and_label(Role::ComboBox, words::RESPONSE).click();
+        harness.run();
+        harness.get_by_label("Film soft").click();
+        harness.run();
+        let state = harness.state_mut();
+        let Some(Action::ReadResponse(name, _)) = state.actions.pop() else { panic!("it is not read") };
+        assert_eq!(state.awaited_response.as_ref(), Some(&name));
+        assert_eq!(state.controls.as_ref().map(|c| c.response.name().to_owned()).as_deref(), Some(""));
     }
 }

@@ -20,13 +20,14 @@ impl State {
                     self.foot = Foot::Findings;
                 }
                 (self.findings, self.sources, self.source_view) = (findings, sources, None);
+                self.reading = None;
             }
             Update::Film(settings, path) => {
                 self.set_file_aside();
                 self.facts = None;
                 self.path = Some(path.display().to_string());
                 self.wanted.clone_from(&self.path);
-                self.controls = Some(Controls::of(&settings));
+                (self.controls, self.before_reset) = (Some(Controls::of(&settings)), None);
                 self.base = Some(*settings);
                 (self.work, self.mode, self.progress) = (None, None, None);
             }
@@ -79,7 +80,7 @@ impl State {
         let of_files = Controls::of(&facts.picture);
         let is_as_before = self.base.as_ref().is_some_and(|base| Controls::of(base) == of_files);
         if !(is_same && is_as_before) || self.controls.is_none() {
-            self.controls = Some(of_files);
+            (self.controls, self.before_reset) = (Some(of_files), None);
         }
         self.base = Some(facts.picture.clone());
         self.work = work.or(self.work);

@@ -52,6 +52,23 @@ impl State {
         self.cross = None;
     }
 
+    /// The text that is read as a whole in the panel that is shown.
+    pub fn read(&self) -> Option<&str> {
+        self.reading.as_ref().filter(|(foot, _)| *foot == self.foot).map(|(_, text)| &**text)
+    }
+
+    /// Leaves what lies on top: the list of keys, a text that is read, or the tools.
+    pub fn leave(&mut self) {
+        if std::mem::take(&mut self.shows_keys) {
+            return;
+        }
+        if self.read().is_some() {
+            self.reading = None;
+        } else {
+            self.leave_tools();
+        }
+    }
+
     /// Does at the cross what a click of the tool does; for a region at one corner, and then at the other.
     pub fn take_at_cross(&mut self) {
         let Some(at) = self.cross else { return };

@@ -1,5 +1,6 @@
 //! What the window says of something that is shown: the second part of its list of words.
 
+use super::elements::capital;
 use super::{PER_CENT, PROGRAM, UNKNOWN};
 use crate::comparison::Layout;
 use crate::controls::Mapper;
@@ -82,8 +83,8 @@ pub fn mapper(mapper: Mapper) -> &'static str {
 /// A response by the name of its file.
 pub fn response(name: &str) -> String {
     match Path::new(name).file_stem() {
-        Some(stem) => stem.to_string_lossy().replace('_', " "),
-        None => "display".to_owned(),
+        Some(stem) => capital(&stem.to_string_lossy().replace('_', " ")),
+        None => "Display".to_owned(),
     }
 }
 
@@ -94,15 +95,15 @@ pub fn chromaticity([x, y]: [f64; 2]) -> String {
 
 /// How paths are built.
 pub fn technique(bidirectional: bool) -> &'static str {
-    if bidirectional { "bidirectional path tracing" } else { "path tracing" }
+    if bidirectional { "Bidirectional path tracing" } else { "Path tracing" }
 }
 
 /// Who chooses paths.
 pub fn sampling(sampling: Sampling) -> &'static str {
     match sampling {
-        Sampling::Independent => "independent",
+        Sampling::Independent => "Independent",
         Sampling::Metropolis => "Metropolis",
-        Sampling::Hybrid => "hybrid",
+        Sampling::Hybrid => "Hybrid",
     }
 }
 
@@ -124,6 +125,14 @@ pub fn phase(phase: &Phase) -> String {
             HaltReason::Failed(_) => "Failed",
         }
         .to_owned(),
+    }
+}
+
+/// What is asked before a render is closed: its head, and the answer by which it stays open.
+pub fn closing(phase: &Phase) -> [&'static str; 2] {
+    match phase {
+        Phase::Paused => ["A render is paused", "Keep it open"],
+        _ => ["A scene is being rendered", "Keep rendering"],
     }
 }
 
@@ -208,15 +217,6 @@ pub fn memory(bytes: u64) -> String {
     format!("{} MiB", bytes >> 20)
 }
 
-/// A luminance.
-pub fn luminance(nits: f32) -> String {
-    format!("{nits:>8.3} cd/m²")
-}
-
-/// An exposure.
-pub fn exposure(lux_seconds: f64) -> String {
-    format!("{lux_seconds:>9.3e} lux·s")
-}
 /// Column and row of a pixel.
 pub fn pixel([x, y]: [u32; 2]) -> String {
     format!("{x}, {y}")
@@ -237,6 +237,15 @@ pub fn xyz([x, y, z]: [f32; 3]) -> String {
     format!("XYZ {x:>8.3} {y:>8.3} {z:>8.3}")
 }
 
+/// A luminance.
+pub fn luminance(nits: f32) -> String {
+    format!("{nits:>8.3} cd/m²")
+}
+
+/// An exposure.
+pub fn exposure(lux_seconds: f64) -> String {
+    format!("{lux_seconds:>9.3e} lux·s")
+}
 
 /// The size of a picture.
 pub fn size(size: FilmSize) -> String {
@@ -266,37 +275,23 @@ pub fn turn(turn: Turn) -> &'static str {
     }
 }
 
-/// Takes a scene out of the queue.
-pub fn remove(name: &str) -> String {
-    format!("Remove {name} from the queue")
-}
-
-/// The tab of what was found.
-pub fn findings(n: usize) -> String {
-    match n {
-        0 => "Scene: no findings".to_owned(),
 /// Scenes that were put into the queue.
 pub fn queued(n: usize) -> String {
     format!("Put {} into the queue", indigo_front::messages::count(n, "scene"))
 }
 
-        n => format!("Scene: {}", indigo_front::messages::count(n, "finding")),
+/// Takes a scene out of the queue.
+pub fn remove(name: &str) -> String {
+    format!("Remove {name} from the queue")
+}
+
+/// The tab of what was found, in a scene if one is open.
+pub fn findings(n: usize, is_open: bool) -> String {
+    match (n, is_open) {
+        (0, false) => "Findings".to_owned(),
+        (0, true) => "No findings".to_owned(),
+        (n, _) => indigo_front::messages::count(n, "finding"),
     }
-}
-
-/// How many elements are to be changed.
-pub fn changes(n: usize) -> String {
-    if n == 0 { "No changes".to_owned() } else { indigo_front::messages::count(n, "change") }
-}
-
-/// The second and further of elements of one name.
-pub fn one_of_many(title: &str, number: usize) -> String {
-    format!("{title} ({number})")
-}
-
-/// Elements that are not listed.
-pub fn more_elements(n: usize) -> String {
-    format!("and {n} more")
 }
 
 /// A part in a render of many machines.
@@ -351,6 +346,7 @@ pub fn ago(clock: &str) -> String {
 }
 
 /// Strangers, mostly.
-pub fn refused(connections: &str) -> String {
+pub fn refused(connections: u64) -> String {
+    let connections = indigo_front::messages::count(connections as usize, "connection");
     format!("{connections} refused; the log says why")
 }
