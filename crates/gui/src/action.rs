@@ -1,13 +1,14 @@
 //! What the window is asked to do, by whichever panel or key asked for it.
 
 use crate::engine::Command;
+use crate::question::PathLine;
 use crate::words;
 use indigo_render::output::OneFile;
 use std::path::{Path, PathBuf};
 
-/// Endings of pictures to compare with.
 /// Endings of scenes.
 pub const SCENES: &[&str] = &["igs", "pigs"];
+/// Endings of pictures to compare with.
 pub const PICTURES: &[&str] = &["png", "exr", "jpg", "jpeg", "tif", "tiff", "hdr"];
 
 /// What a dialog asks for.
@@ -60,6 +61,10 @@ pub enum Action {
     SaveElements(Box<Action>),
     /// Write how the picture is developed into the scene.
     WriteSettings,
+    /// Look whether a path that was typed can be what was asked for; the number is that of the try.
+    CheckPath(u64, Box<PathLine>),
+    /// Read a response curve, by its name, from a file.
+    ReadResponse(String, PathBuf),
     /// Begin the queue, or go on with it, by hand.
     RunQueue,
     /// Begin the next scene of the queue, whether or not anybody is there.

@@ -1,21 +1,20 @@
 //! The window: it hands what happens to the panels, and what they ask for to the engine.
 
+mod answers;
 mod asking;
 mod writing;
 
 use crate::action::{Action, Ask, PICTURES, has_ending};
-use crate::comparison;
 use crate::engine::{Command, Engine, Request, Shown};
 use crate::log::Weight;
 use crate::panels::{self, Textures};
-use crate::question::{PathLine, Question};
 use crate::recent::Recent;
 use crate::scene_file::{NotSaved, SceneFile};
 use crate::state::{Foot, State, Tab};
 use crate::{signals, theme, words};
+use answers::Answer;
 use eframe::egui::{
-    self, CentralPanel, ColorImage, Context, Frame, Margin, Panel, TextureFilter, TextureOptions, Ui,
-    ViewportCommand,
+    self, CentralPanel, Context, Frame, Margin, Panel, TextureFilter, TextureOptions, Ui, ViewportCommand,
 };
 use indigo_front::flags::{Arguments, Role};
 use std::path::{Path, PathBuf};
@@ -36,6 +35,8 @@ pub struct App {
     answers: Receiver<Answer>,
     answer: Sender<Answer>,
     writing: Writing,
+    /// Whether the window closes when changed elements are saved.
+    closes_then: bool,
     /// Whether the engine has ended.
     is_gone: bool,
 }
@@ -46,9 +47,9 @@ impl App {
         theme::set(&context.egui_ctx);
         let recent = context.storage.and_then(|storage| storage.get_string(RECENT)).unwrap_or_default();
         let mut state = State::new(arguments, Recent::from_text(&recent));
-        let engine =
         let tab = context.storage.and_then(|storage| storage.get_string(TAB)).unwrap_or_default();
         state.tab = Tab::named(&tab);
+        let engine =
             Engine::new(&context.egui_ctx).map_err(|error| state.tell(Weight::Error, error.to_string())).ok();
         if let Some(engine) = &engine
             && let Err(reason) = signals::catch(engine.quitter())
@@ -68,6 +69,7 @@ impl App {
             answers,
             answer,
             writing: Writing::default(),
+            closes_then: false,
             is_gone: false,
         }
     }
@@ -90,29 +92,7 @@ impl App {
             }
         }
         for answer in self.answers.try_iter().collect::<Vec<_>>() {
-            match answer {
-                Answer::Path(ask, path) => self.asked(ask, path, context),
-                Answer::NoDialog(line) => self.state.question = Some(Question::Path(line)),
-                Answer::Comparison(path, Ok(image)) => {
-                    self.textures.other = Some(context.load_texture("other", Arc::clone(&image), options()));
-                    self.state.comparison.picture = Some((path, image));
-                    if self.state.comparison.layout == comparison::Layout::Off {
-                        self.state.comparison.layout = comparison::Layout::Wipe;
-                    }
-                }
-                Answer::Elements(file) => match *file {
-                    Ok(file) => self.state.take_file(file),
-                    Err(text) => self.complain(text),
-                },
-                Answer::Written(Ok(files)) => {
-                    self.tell_written(&files);
-                    // They are read again, so that changes of theirs can still be saved.
-                    if self.state.file.is_some() {
-                        self.read_elements(context);
-                    }
-                }
-                Answer::Comparison(_, Err(text)) | Answer::Written(Err(text)) => self.complain(text),
-            }
+            self.take(answer, context);
         }
         let dropped = context.input(|input| input.raw.dropped_files.clone());
         self.state.take_dropped(dropped.iter().map(|file| file.path().to_path_buf()).collect());
@@ -146,24 +126,28 @@ impl App {
         });
     }
 
-    /// Writes changed elements, and goes on with what is to be done then.
-    fn save_elements(&mut self, then: Action) {
-        let mut all_saved = true;
-        for file in self.state.take_unsaved() {
-            match file.save() {
-                Ok(files) => {
-                    self.state.was_saved(&file);
-                    self.tell_written(&files);
-                }
-                Err(text) => {
-                    all_saved = false;
-                    self.state.put_back(file);
-                    self.complain(text);
-                }
-            }
+    /// Writes changed elements on a thread of its own, and then goes on with what is to be done.
+    fn save_elements(&mut self, then: Action, context: &Context) {
+        let files = self.state.take_unsaved();
+        let (answer, context) = (self.answer.clone(), context.clone());
+        // They are handed over once there is somebody to take them, so that they cannot be lost.
+        let (hand, take) = channel::<Vec<SceneFile>>();
+        let work = move || {
+            let Ok(files) = take.recv() else { return };
+            let save = |file: SceneFile| {
+                let written = file.save();
+                (file, written)
+            };
+            let saved = files.into_iter().map(save).collect();
+            drop(answer.send(Answer::Saved(saved, Box::new(then))));
+            context.request_repaint();
+        };
+        if let Err(error) = self.writing.spawn("elements", work) {
+            self.complain(error.to_string());
         }
-        if all_saved {
-            self.state.act(then);
+        match hand.send(files) {
+            Ok(()) => self.state.saves_elements = true,
+            Err(error) => error.0.into_iter().for_each(|file| self.state.put_back(file)),
         }
     }
 
@@ -174,7 +158,8 @@ impl App {
         let (path, controls, base) = (path.clone(), controls.clone(), base.clone());
         let (answer, context) = (self.answer.clone(), context.clone());
         let work = move || {
-            let written = SceneFile::read(&path).and_then(|file| file.save_controls(&controls, &base));
+            let read = SceneFile::read(&path).map_err(NotSaved::from);
+            let written = read.and_then(|file| file.save_controls(&controls, &base));
             drop(answer.send(Answer::Written(written)));
             context.request_repaint();
         };
@@ -225,8 +210,10 @@ impl App {
                 }
             }
             Action::ReadElements => self.read_elements(context),
-            Action::SaveElements(then) => self.save_elements(*then),
+            Action::SaveElements(then) => self.save_elements(*then, context),
             Action::WriteSettings => self.write_settings(context),
+            Action::CheckPath(number, line) => self.check_path(number, *line, context),
+            Action::ReadResponse(name, path) => self.read_response(name, path, context),
             Action::RunQueue | Action::NextInQueue => self.run_queue(),
             Action::TryToClose => context.send_viewport_cmd(ViewportCommand::Close),
             Action::Close => {
@@ -285,6 +272,11 @@ impl App {
             return;
         }
         context.send_viewport_cmd(ViewportCommand::CancelClose);
+        if self.state.saves_elements {
+            // Whether they could be saved is known soon.
+            self.closes_then = true;
+            return;
+        }
         match self.state.question_before_closing() {
             Some(question) => self.state.ask(question),
             None => self.state.save_and_close(),
@@ -318,7 +310,6 @@ impl eframe::App for App {
         self.tend_closing(&context);
         self.act(&context);
         let title = self.state.path.as_deref().map_or_else(|| words::PROGRAM.to_owned(), words::title);
-        storage.set_string(TAB, words::tab(self.state.tab).to_owned());
         if self.state.title != title {
             self.state.title.clone_from(&title);
             context.send_viewport_cmd(ViewportCommand::Title(title));
@@ -327,6 +318,7 @@ impl eframe::App for App {
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
         storage.set_string(RECENT, self.state.recent.to_text());
+        storage.set_string(TAB, words::tab(self.state.tab).to_owned());
     }
 }
 

@@ -16,7 +16,7 @@ use crate::controls::Controls;
 use crate::engine::{Command, LoadedFacts, Phase, Shown};
 use crate::log::{Finding, Line, Log, SourceView, Weight};
 use crate::part::Part;
-use crate::question::Question;
+use crate::question::Questions;
 use crate::queue::Queue;
 use crate::recent::Recent;
 use crate::scene_file::SceneFile;
@@ -163,8 +163,12 @@ pub struct State {
     pub recent: Recent,
     /// Scenes to render.
     pub queue: Queue,
-    /// What the user is asked.
-    pub question: Option<Question>,
+    /// What the user is asked, one after another.
+    pub questions: Questions,
+    /// Whether changed elements are being written.
+    pub saves_elements: bool,
+    /// The response curve that was chosen, until it is read.
+    pub awaited_response: Option<String>,
     /// Whether the panel of the scene shows its elements.
     pub shows_elements: bool,
     /// Whether the theme is to change.
@@ -196,15 +200,15 @@ impl State {
             unsaved_films: 0,
             after_saving: None,
             set_aside: BTreeMap::new(),
+            reading: None,
             source_view: None,
             base: None,
             controls: None,
+            before_reset: None,
             responses: crate::controls::responses(),
-            reading: None,
             work: None,
             mode: None,
             mode_is_chosen: false,
-            before_reset: None,
             part: Part::of(&arguments),
             arguments,
             slaves: None,
@@ -221,7 +225,9 @@ impl State {
             foot: Foot::Log,
             recent,
             queue: Queue::default(),
-            question: None,
+            questions: Questions::default(),
+            saves_elements: false,
+            awaited_response: None,
             shows_elements: false,
             wants_other_theme: false,
             work_is_new: false,

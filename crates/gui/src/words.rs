@@ -178,6 +178,11 @@ texts! {
     SAVE_CHANGES_HINT = "Write the changes to the scene files, keeping their comments and layout, and load the scene again";
     DISCARD = "Discard";
     LONG_TEXT = "too long to edit here";
+    ADD_ELEMENT = "Add…";
+    FLAG = "is given";
+    COLOUR = "Colour";
+    COLOUR_FACTOR = "Factor";
+    COLOUR_FACTOR_HINT = "What the colour is multiplied by, for numbers beyond 1";
 }
 
 // The queue.
@@ -185,12 +190,12 @@ texts! {
     QUEUE = "Scenes to render one after another";
     QUEUE_HINT = "Each is rendered until its own halting condition is met, then saved.";
     QUEUE_HALT = "Otherwise halt at";
+    QUEUE_HALT_UNIT = " spp";
     QUEUE_HALT_HINT = "Samples per pixel for scenes without a halting condition";
     QUEUE_START = "Start the queue";
     QUEUE_END = "Stop after this scene";
     QUEUE_END_HINT = "The next scene is not started";
     ADD = "Add…";
-    QUEUE_HALT_UNIT = " spp";
     REMOVE = "×";
 }
 
@@ -234,22 +239,21 @@ texts! {
     LOG = "Log";
     NO_FINDINGS = "Nothing is wrong with the scene";
     BACK = "Back to the list";
+    COPY = "Copy";
+    COPY_HINT = "Copy this text";
 }
 
 // Questions, and files.
 texts! {
-    CLOSE_HEAD = "A scene is being rendered";
-    COPY = "Copy";
-    COPY_HINT = "Copy this text";
     CLOSE_TEXT = "What should happen to the render when the window closes?";
     CLOSE_SAVE = "Save and close";
     CLOSE_DISCARD = "Close without saving";
-    CLOSE_NOT = "Keep rendering";
     UNSAVED_HEAD = "Changes have not been saved";
     UNSAVED_SAVE = "Save";
     UNSAVED_DISCARD = "Discard";
     NO_DIALOG = "This desktop offers no dialog for files. Path:";
-    NO_PATH = "type the path of a file";
+    NO_PATH = "Type the path of a file";
+    CHECKING = "Looking for it…";
     SCENES_AND_FILMS = "Scenes and films";
     SCENES = "Scenes";
     PICTURES = "Pictures";

@@ -1,11 +1,12 @@
 //! Asking for paths, and what becomes of them.
 
-use super::{Answer, App};
+use super::App;
+use super::answers::Answer;
 use crate::action::{Action, Ask};
 use crate::dialog::{self, NoDialog, Wanted};
 use crate::engine::Command;
 use crate::question::PathLine;
-use crate::{comparison, words};
+use crate::{comparison, controls, words};
 use eframe::egui::Context;
 use indigo_front::net::make_key;
 use std::path::{Path, PathBuf};
@@ -13,9 +14,10 @@ use std::path::{Path, PathBuf};
 impl App {
     /// Asks for a path by the desktop's own dialog, on a thread that waits for it; by a line to type in where there is none.
     pub(super) fn ask(&mut self, ask: Ask, context: &Context) {
-        let wanted = self.wanted(ask);
+        let mut wanted = self.wanted(ask);
         let (answer, context) = (self.answer.clone(), context.clone());
         self.spawn("dialog", move || {
+            wanted.folder.take_if(|folder| !folder.is_dir());
             let answered = match dialog::choose(&wanted) {
                 Ok(Some(path)) => Answer::Path(ask, path),
                 Ok(None) => return,
@@ -29,7 +31,7 @@ impl App {
 
     fn wanted(&self, ask: Ask) -> Wanted {
         let folder = self.state.wanted.as_deref().and_then(|path| Path::new(path).parent());
-        let folder = folder.filter(|folder| folder.is_dir()).map(Path::to_path_buf);
+        let folder = folder.map(Path::to_path_buf);
         let stem = self.state.path.as_deref().and_then(|path| Path::new(path).file_stem());
         let name = match ask {
             Ask::Save(what) => {
@@ -48,13 +50,14 @@ impl App {
             Ask::Queue => self.state.queue.add(path),
             Ask::Save(what) => self.send(Command::Save(what, path)),
             Ask::Key => self.take_key(&path),
-            Ask::NewKey => match make_key(&path) {
-                Ok(()) => {
-                    self.say(words::key_made(&path));
-                    self.take_key(&path);
-                }
-                Err(text) => self.complain(text),
-            },
+            Ask::NewKey => {
+                let (answer, context) = (self.answer.clone(), context.clone());
+                self.spawn("key", move || {
+                    let made = make_key(&path);
+                    drop(answer.send(Answer::NewKey(path, made)));
+                    context.request_repaint();
+                });
+            }
             Ask::Compare => {
                 let (answer, context) = (self.answer.clone(), context.clone());
                 let longest_side = context.input(|input| input.max_texture_side);
@@ -67,7 +70,28 @@ impl App {
         }
     }
 
-    fn take_key(&mut self, path: &Path) {
+    /// Looks at a path that was typed, which may be on a disk that takes its time.
+    pub(super) fn check_path(&mut self, number: u64, line: PathLine, context: &Context) {
+        let (answer, context) = (self.answer.clone(), context.clone());
+        self.spawn("path", move || {
+            let ask = line.ask;
+            let accepted = line.accept().map(|path| (ask, path));
+            drop(answer.send(Answer::Checked(number, Box::new(accepted))));
+            context.request_repaint();
+        });
+    }
+
+    /// Reads a response curve that was chosen.
+    pub(super) fn read_response(&mut self, name: String, path: PathBuf, context: &Context) {
+        let (answer, context) = (self.answer.clone(), context.clone());
+        self.spawn("response", move || {
+            let read = controls::read_response(&name, &path);
+            drop(answer.send(Answer::Response(name, read)));
+            context.request_repaint();
+        });
+    }
+
+    pub(super) fn take_key(&mut self, path: &Path) {
         match path.to_str() {
             Some(text) => text.clone_into(&mut self.state.part.key_file),
             None => self.complain(words::not_text(path)),

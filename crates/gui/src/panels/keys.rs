@@ -87,7 +87,7 @@ fn step(state: &mut State, arrow: usize, is_far: bool) {
 /// Does what keys ask for, and shows the list of them.
 pub fn keys(context: &Context, state: &mut State) {
     // A question and open lists take all keys: Escape closes them.
-    if state.question.is_some() || Popup::is_any_open(context) {
+    if !state.questions.is_empty() || Popup::is_any_open(context) {
         return;
     }
     let focused = context.memory(Memory::focused);

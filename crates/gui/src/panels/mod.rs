@@ -92,22 +92,89 @@ fn fact(ui: &mut Ui, name: &str, value: impl Into<String>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::action::Action;
+    use crate::engine::{LoadedFacts, Phase, Update};
+    use crate::log::{Finding, Weight};
     use crate::recent::Recent;
+    use crate::scene_file::SceneFile;
+    use crate::work::Work;
     use egui_kittest::Harness;
+    use egui_kittest::kittest::Queryable as _;
     use indigo_front::flags::Arguments;
+    use indigo_front::load::load_scene;
+
+    /// A scene is open, and every panel has something to show.
+    pub(super) fn full() -> State {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../testscenes/cornell_box.igs");
+        let arguments = Arguments::default();
+        let (loaded, _) = load_scene(path, &arguments, None).expect("the scene is there");
+        let facts = LoadedFacts::of(&loaded.scene.expect("it can be rendered"));
+        let mut state = State::new(arguments, Recent::default());
+        let work = Work::of(&facts.output, None);
+        state.take(Update::Scene(Box::new(facts), Some(work)));
+        state.take(Update::Phase(Phase::Ready));
+        state.queue.add("a scene with a name that is longer than there is room for it in a line.igs".into());
+        state.file = Some(SceneFile::read(path).expect("the scene is there"));
+        let (head, full) = ("something ".repeat(40), "something".to_owned());
+        state.findings.push(Finding { weight: Weight::Warning, head, full, span: None });
+        state
+    }
 
     #[test]
     fn nothing_is_wider_than_the_side() {
         // Less the margins of a panel, 8 points each.
         let width = theme::SIDE - 16.0;
-        for tab in Tab::ALL {
-            let state = State { tab, ..State::new(Arguments::default(), Recent::default()) };
-            let show = |ui: &mut Ui, state: &mut State| {
-                ui.set_max_width(width);
-                side(ui, state);
-                assert!(ui.min_rect().width() <= width, "{tab:?}: {}", ui.min_rect().width());
-            };
-            Harness::builder().with_size(vec2(2.0 * width, 600.0)).build_ui_state(show, state).run();
+        let show = |ui: &mut Ui, state: &mut State| {
+            ui.set_max_width(width);
+            side(ui, state);
+            assert!(ui.min_rect().width() <= width, "{:?}: {}", state.tab, ui.min_rect().width());
+        };
+        for (tab, shows_elements, seen) in [
+            (Tab::Picture, false, words::BURN),
+            (Tab::Render, false, words::APPLY_MODE),
+            (Tab::Scene, false, words::TRIANGLES),
+            (Tab::Scene, true, words::SAVE_CHANGES),
+            (Tab::Queue, false, words::QUEUE_START),
+            (Tab::Network, false, words::KEY_FILE),
+        ] {
+            let state = State { tab, shows_elements, ..full() };
+            let mut harness =
+                Harness::builder().with_size(vec2(2.0 * width, 900.0)).build_ui_state(show, state);
+            theme::set(&harness.ctx);
+            harness.run();
+            assert!(harness.query_all_by_label(seen).count() > 0, "{tab:?} shows nothing");
         }
+    }
+
+    /// Down to the values, with what is wrong with them.
+    #[test]
+    fn elements_are_no_wider_than_the_side() {
+        let width = theme::SIDE - 16.0;
+        let mut state = State { tab: Tab::Scene, shows_elements: true, ..full() };
+        if let Some(file) = &mut state.file {
+            file.changes.insert(vec![0, 0], "-12345678901234567890".to_owned());
+        }
+        let show = |ui: &mut Ui, state: &mut State| {
+            ui.set_max_width(width);
+            side(ui, state);
+            assert!(ui.min_rect().width() <= width, "{}", ui.min_rect().width());
+        };
+        let mut harness = Harness::builder().with_size(vec2(2.0 * width, 900.0)).build_ui_state(show, state);
+        theme::set(&harness.ctx);
+        for title in ["renderer_settings", "camera", "material white", "diffuse", "albedo_spectrum"] {
+            harness.run();
+            harness.get_by_label(title).click();
+        }
+        harness.run();
+        assert!(harness.query_by_label_contains("must be > 0").is_some());
+        assert!(!harness.state().actions.iter().any(|action| matches!(action, Action::SaveElements(_))));
+    }
+
+    #[test]
+    fn a_tab_is_known_by_its_name() {
+        for tab in Tab::ALL {
+            assert_eq!(Tab::named(words::tab(tab)), tab);
+        }
+        assert_eq!(Tab::named("of a later version"), Tab::Picture);
     }
 }

@@ -6,23 +6,32 @@ use crate::log::Weight;
 use crate::question::{PathLine, Question};
 use crate::state::State;
 use crate::{theme, words};
-use eframe::egui::{Context, Id, Key, Modal, TextEdit, Ui};
+use eframe::egui::{Button, Context, Id, Key, Modal, Response, TextEdit, Ui};
 
 /// Shows a question, if there is one, and does what is answered.
 pub fn questions(context: &Context, state: &mut State) {
-    let Some(question) = state.question.take() else { return };
-    state.question = match question {
-        Question::Close => closing(context, state),
-        Question::Unsaved(action) => unsaved(context, state, action),
-        Question::UnsavedFilm(action) => unsaved_film(context, state, action),
+    let Some((question, is_new)) = state.questions.take() else { return };
+    let is_left = match question {
+        Question::Close => closing(context, state, is_new),
+        Question::Unsaved(action) => unsaved(context, state, action, is_new),
+        Question::UnsavedFilm(action) => unsaved_film(context, state, action, is_new),
         Question::Path(line) => path(context, state, line),
     };
+    if let Some(question) = is_left {
+        state.questions.keep(question);
+    }
 }
 
 /// What becomes of a render when the window closes.
-fn closing(context: &Context, state: &mut State) -> Option<Question> {
-    let answers = [words::CLOSE_SAVE, words::CLOSE_DISCARD, words::CLOSE_NOT];
-    match choose(context, words::CLOSE_HEAD, words::CLOSE_TEXT, answers) {
+fn closing(context: &Context, state: &mut State, is_new: bool) -> Option<Question> {
+    if !state.has_growing_film() {
+        // It ended while something else was asked.
+        state.act(Action::TryToClose);
+        return None;
+    }
+    let [head, stay] = words::closing(&state.phase);
+    let answers = [words::CLOSE_SAVE, words::CLOSE_DISCARD, stay];
+    match choose(context, head, words::CLOSE_TEXT, answers, is_new) {
         None => return Some(Question::Close),
         Some(0) => state.save_and_close(),
         Some(1) => state.command(Command::Quit { saves: false }),
@@ -32,9 +41,14 @@ fn closing(context: &Context, state: &mut State) -> Option<Question> {
 }
 
 /// What becomes of changed elements before something is done.
-fn unsaved(context: &Context, state: &mut State, action: Box<Action>) -> Option<Question> {
+fn unsaved(context: &Context, state: &mut State, action: Box<Action>, is_new: bool) -> Option<Question> {
+    if !state.has_unsaved() {
+        // Nothing would be lost any more.
+        state.act(*action);
+        return None;
+    }
     let answers = [words::UNSAVED_SAVE, words::UNSAVED_DISCARD, words::CANCEL];
-    match choose(context, words::UNSAVED_HEAD, &words::unsaved(state.n_unsaved()), answers) {
+    match choose(context, words::UNSAVED_HEAD, &words::unsaved(state.n_unsaved()), answers, is_new) {
         None => return Some(Question::Unsaved(action)),
         Some(0) => state.act(Action::SaveElements(action)),
         Some(1) => {
@@ -47,9 +61,13 @@ fn unsaved(context: &Context, state: &mut State, action: Box<Action>) -> Option<
 }
 
 /// What becomes of films that could not be saved before something is done.
-fn unsaved_film(context: &Context, state: &mut State, action: Box<Action>) -> Option<Question> {
+fn unsaved_film(context: &Context, state: &mut State, action: Box<Action>, is_new: bool) -> Option<Question> {
+    if state.unsaved_films == 0 {
+        state.act(*action);
+        return None;
+    }
     let answers = [words::FILM_SAVE, words::UNSAVED_DISCARD, words::CANCEL];
-    match choose(context, words::FILM_HEAD, &words::unsaved_films(state.unsaved_films), answers) {
+    match choose(context, words::FILM_HEAD, &words::unsaved_films(state.unsaved_films), answers, is_new) {
         None => return Some(Question::UnsavedFilm(action)),
         Some(0) => state.save_films_before(action),
         Some(1) => {
@@ -62,7 +80,7 @@ fn unsaved_film(context: &Context, state: &mut State, action: Box<Action>) -> Op
 }
 
 /// The number of the answer that was chosen; the last where the question is closed.
-fn choose(context: &Context, head: &str, text: &str, answers: [&str; 3]) -> Option<usize> {
+fn choose(context: &Context, head: &str, text: &str, answers: [&str; 3], is_new: bool) -> Option<usize> {
     let modal = Modal::new(Id::unique("question")).show(context, |ui| {
         ui.set_width(380.0);
         ui.heading(head);
@@ -70,7 +88,12 @@ fn choose(context: &Context, head: &str, text: &str, answers: [&str; 3]) -> Opti
         ui.label(text);
         ui.add_space(10.0);
         ui.horizontal(|ui| {
-            answers.map(|answer| ui.button(answer).clicked()).iter().position(|clicked| *clicked)
+            let buttons = answers.map(|answer| ui.button(answer));
+            if is_new {
+                // So that it can be answered by a key, and a screen reader says it.
+                buttons[0].request_focus();
+            }
+            buttons.iter().position(Response::clicked)
         })
         .inner
     });
@@ -83,13 +106,12 @@ fn path(context: &Context, state: &mut State, mut line: PathLine) -> Option<Ques
     let modal = Modal::new(Id::unique("path")).show(context, |ui| path_line(ui, &mut line));
     let is_left = modal.should_close();
     match modal.inner {
-        Some(true) => match line.accept() {
-            Some(path) => {
-                state.act(Action::Asked(line.ask, path));
-                None
-            }
-            None => Some(Question::Path(line)),
-        },
+        Some(true) => {
+            let number = state.questions.next_try();
+            line.checked_as = Some(number);
+            state.act(Action::CheckPath(number, Box::new(line.clone())));
+            Some(Question::Path(line))
+        }
         None if !is_left => Some(Question::Path(line)),
         _ => None,
     }
@@ -102,28 +124,30 @@ fn path_line(ui: &mut Ui, line: &mut PathLine) -> Option<bool> {
     ui.add_space(6.0);
     let name = ui.label(words::NO_DIALOG).id;
     ui.add_space(4.0);
-    let field = ui.add(TextEdit::singleline(&mut line.text).desired_width(f32::INFINITY)).labelled_by(name);
-    if std::mem::take(&mut line.is_new) {
+    let is_checked = line.checked_as.is_some();
+    let field = TextEdit::singleline(&mut line.text).desired_width(f32::INFINITY);
+    let field = ui.add_enabled(!is_checked, field).labelled_by(name);
+    if !is_checked && std::mem::take(&mut line.is_new) {
         field.request_focus();
     }
     if field.changed() {
         line.wrong.clear();
     }
     let is_entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-    if is_entered {
-        // It may have to be mended.
-        field.request_focus();
-    }
-    if !line.wrong.is_empty() {
+    if is_checked {
+        ui.weak(words::CHECKING);
+    } else if !line.wrong.is_empty() {
         ui.colored_label(theme::of_weight(Weight::Error, ui.visuals()), &line.wrong);
     }
     ui.add_space(10.0);
-    let answers = [words::answer(line.ask), words::CANCEL];
-    let clicked = ui.horizontal(|ui| answers.map(|answer| ui.button(answer).clicked())).inner;
-    match clicked {
+    let clicked = ui.horizontal(|ui| {
+        let take = ui.add_enabled(!is_checked, Button::new(words::answer(line.ask))).clicked();
+        [take, ui.button(words::CANCEL).clicked()]
+    });
+    match clicked.inner {
         [true, _] => Some(true),
         [_, true] => Some(false),
-        _ => is_entered.then_some(true),
+        _ => (is_entered && !is_checked).then_some(true),
     }
 }
 
@@ -131,18 +155,20 @@ fn path_line(ui: &mut Ui, line: &mut PathLine) -> Option<bool> {
 mod tests {
     use super::*;
     use crate::action::Ask;
+    use crate::engine::Phase;
     use crate::panels::keys;
     use crate::recent::Recent;
     use crate::scene_file::SceneFile;
     use crate::state::Tool;
     use egui_kittest::Harness;
-    use egui_kittest::kittest::Queryable as _;
+    use egui_kittest::kittest::{NodeT as _, Queryable as _};
     use indigo_front::flags::Arguments;
     use std::path::PathBuf;
 
     fn harness(question: Question) -> Harness<'static, State> {
         let mut state = State::new(Arguments::default(), Recent::default());
-        (state.question, state.tool) = (Some(question), Tool::Region);
+        state.ask(question);
+        (state.tool, state.phase) = (Tool::Region, Phase::Rendering);
         let ui = |ui: &mut Ui, state: &mut State| {
             keys(ui.ctx(), state);
             questions(ui.ctx(), state);
@@ -165,7 +191,7 @@ mod tests {
             harness.key_press(Key::Escape);
             harness.run();
             let state = harness.state();
-            assert_eq!((state.question.is_some(), state.tool), (is_asked, tool));
+            assert_eq!((!state.questions.is_empty(), state.tool), (is_asked, tool));
         }
     }
 
@@ -179,7 +205,7 @@ mod tests {
         {
             let mut harness = harness(Question::Close);
             let state = harness.state_mut();
-            state.question = None;
+            drop(state.questions.take());
             let mut file = SceneFile::read(path.to_str().unwrap()).unwrap();
             file.changes.insert(vec![0, 0], "1 2 3".to_owned());
             state.file = Some(file);
@@ -191,7 +217,7 @@ mod tests {
             harness.get_by_label(answer).click();
             harness.run();
             let state = harness.state_mut();
-            assert!(state.question.is_none());
+            assert!(state.questions.is_empty());
             assert_eq!(state.has_unsaved(), is_changed, "{answer}");
             match state.actions.pop() {
                 Some(Action::SaveElements(then)) if answer == words::UNSAVED_SAVE => {
@@ -209,17 +235,51 @@ mod tests {
     fn a_path_is_typed_where_the_desktop_has_no_dialog() {
         let folder = scratch("path");
         let mut harness = harness(Question::Path(PathLine::new(Ask::Open, Some(&folder), "a.igs")));
-        harness.key_press(Key::Enter);
-        harness.run();
-        let Some(Question::Path(line)) = &harness.state().question else { panic!("it is taken") };
-        assert!(line.wrong.contains("a.igs"), "{}", line.wrong);
-        std::fs::write(folder.join("a.igs"), "<scene/>").unwrap();
-        harness.key_press(Key::Enter);
-        harness.run();
+        for (is_there, is_wrong) in [(false, true), (true, false)] {
+            if is_there {
+                std::fs::write(folder.join("a.igs"), "<scene/>").unwrap();
+            }
+            harness.key_press(Key::Enter);
+            harness.run();
+            let state = harness.state_mut();
+            // The window looks at no disk itself.
+            let Some(Action::CheckPath(number, line)) = state.actions.pop() else {
+                panic!("it is not taken")
+            };
+            assert!(harness.get_by_label(words::answer(Ask::Open)).accesskit_node().is_disabled());
+            assert!(!harness.get_by_label(words::CANCEL).accesskit_node().is_disabled());
+            let checked = line.accept().map(|path| (Ask::Open, path));
+            harness.state_mut().path_is_checked(number, checked);
+            harness.run();
+            assert_eq!(harness.query_by_label_contains("no file").is_some(), is_wrong);
+        }
         let state = harness.state_mut();
-        assert!(state.question.is_none());
+        assert!(state.questions.is_empty());
         let Some(Action::Asked(Ask::Open, path)) = state.actions.pop() else { panic!("it is not taken") };
         assert_eq!(path, folder.join("a.igs"));
         std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn a_question_is_answered_by_keys_alone_and_in_the_words_of_what_is_under_way() {
+        let mut harness = harness(Question::Close);
+        assert!(harness.get_by_label(words::CLOSE_SAVE).is_focused());
+        assert!(harness.query_by_label("Keep rendering").is_some());
+        harness.state_mut().phase = Phase::Paused;
+        harness.run();
+        assert!(harness.query_by_label("Keep rendering").is_none(), "it rests");
+        harness.key_press(Key::Enter);
+        harness.run();
+        let action = harness.state_mut().actions.pop();
+        assert!(matches!(action, Some(Action::Command(Command::Quit { saves: true }))));
+    }
+
+    #[test]
+    fn a_question_without_a_ground_is_not_asked() {
+        let mut harness = harness(Question::Close);
+        harness.state_mut().phase = Phase::Ready;
+        harness.run();
+        assert!(harness.state().questions.is_empty());
+        assert!(matches!(harness.state_mut().actions.pop(), Some(Action::TryToClose)));
     }
 }

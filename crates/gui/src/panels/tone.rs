@@ -2,9 +2,8 @@
 
 use super::{head, lights, row};
 use crate::action::Action;
-use crate::controls::{Controls, Mapper, read_response};
+use crate::controls::{Controls, Mapper};
 use crate::engine::Histogram;
-use crate::log::{Line, Weight};
 use crate::state::{State, Tool};
 use crate::{theme, words};
 use eframe::egui::{
@@ -82,6 +81,7 @@ fn scale(ui: &mut Ui, name: &str, value: &mut f64, range: std::ops::RangeInclusi
 }
 
 fn response(ui: &mut Ui, state: &mut State, controls: &mut Controls) {
+    let mut chosen = None;
     row(ui, words::RESPONSE, |ui| {
         ComboBox::from_id_salt("response")
             .width(theme::CONTROL)
@@ -90,19 +90,19 @@ fn response(ui: &mut Ui, state: &mut State, controls: &mut Controls) {
                 let display = std::sync::Arc::new(Curves::display());
                 if ui.selectable_label(controls.response.name().is_empty(), words::response("")).clicked() {
                     controls.response = display;
+                    state.awaited_response = None;
                 }
                 for (name, path) in &state.responses {
                     if ui.selectable_label(controls.response.name() == name, words::response(name)).clicked()
                     {
-                        match read_response(name, path) {
-                            Ok(response) => controls.response = response,
-                            Err(text) => state.log.add(Line { weight: Weight::Error, text }),
-                        }
+                        state.awaited_response = Some(name.clone());
+                        chosen = Some(Action::ReadResponse(name.clone(), path.clone()));
                     }
                 }
             })
             .response
     });
+    state.actions.extend(chosen);
 }
 
 /// The response, from irradiance to brightness, for red, green and blue.
@@ -207,6 +207,7 @@ fn filled(line: &[Pos2], inner: Rect, colour: Color32) -> Mesh {
 mod tests {
     use super::*;
     use crate::recent::Recent;
+    use eframe::egui::Role;
     use egui_kittest::Harness;
     use egui_kittest::kittest::Queryable as _;
     use indigo_front::flags::Arguments;
@@ -227,8 +228,16 @@ mod tests {
     fn controls_are_found_by_their_names_and_act() {
         let mut harness = harness();
         harness.run();
-        for name in [words::MAPPER, words::EV, words::ISO, words::RESPONSE, words::WHITE] {
-            assert!(harness.query_all_by_label(name).count() > 0, "{name} has no name for a screen reader");
+        for (name, role) in [
+            (words::MAPPER, Role::ComboBox),
+            (words::EV, Role::Slider),
+            (words::ISO, Role::Slider),
+            (words::RESPONSE, Role::ComboBox),
+            (words::WHITE, Role::ComboBox),
+        ] {
+            // What a control is named by has that text, too: only its role tells them from each other.
+            let found = harness.query_by_role_and_label(role, name);
+            assert!(found.is_some(), "{name} has no name for a screen reader");
         }
         harness.get_by_label(words::BLOOM).click();
         harness.run();

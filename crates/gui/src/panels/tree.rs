@@ -1,25 +1,28 @@
-//! The elements of the scene, whose texts can be changed.
+//! The elements of the scene as they are declared: what is in its files, and what could be.
+
+mod colour;
+mod field;
 
 use crate::action::Action;
-use crate::scene_file::SceneFile;
+use crate::scene_file::{Changes, SceneFile};
 use crate::state::State;
 use crate::words;
-use eframe::egui::{Align, Button, CollapsingHeader, Label, Layout, TextEdit, Ui, vec2};
-use indigo_decl::Element;
-use std::collections::{BTreeMap, HashMap};
+use eframe::egui::{Button, CollapsingHeader, RichText, ScrollArea, Ui};
+use field::Row;
+use indigo_decl::{Element, Meaning};
+use indigo_scene::schema::SCENE;
+use std::collections::HashMap;
 
 /// The most children of an element that are listed.
 const MOST_CHILDREN: usize = 300;
-/// The longest text that is edited here, in bytes.
-const LONGEST: usize = 400;
 /// The longest name in the head of an element, in characters.
 const LONGEST_NAME: usize = 28;
-/// All fields begin this far from the left, however deep their elements are.
-const EDGE: f32 = 150.0;
-/// Unless their names would get less than this.
-const LEAST_NAME: f32 = 56.0;
 /// How much further to the right children stand.
 const INDENT: f32 = 12.0;
+/// Height of the list of what can be added, at most.
+const LIST: f32 = 360.0;
+/// Its width.
+const LIST_WIDTH: f32 = 300.0;
 /// Children by which elements of one kind are told from each other, the best first.
 const NAMES: [&str; 5] = ["name", "mesh_name", "material_name", "pathname", "uid"];
 
@@ -31,10 +34,13 @@ pub fn tree(ui: &mut Ui, state: &mut State) {
         }
         return;
     };
+    let (n, faults) = (file.changes.len(), file.faults());
     ui.horizontal(|ui| {
-        let n = file.changes.len();
-        let save = ui.add_enabled(n > 0, Button::new(words::SAVE_CHANGES));
-        if save.on_hover_text(words::SAVE_CHANGES_HINT).clicked() {
+        let save = ui.add_enabled(n > 0 && faults == 0, Button::new(words::SAVE_CHANGES));
+        let save = save.on_hover_text(words::SAVE_CHANGES_HINT);
+        if faults > 0 {
+            save.on_disabled_hover_text(words::faulty(faults));
+        } else if save.clicked() {
             state.act(Action::SaveElements(Action::Restart.into()));
         }
         if ui.add_enabled(n > 0, Button::new(words::DISCARD)).clicked() {
@@ -42,10 +48,11 @@ pub fn tree(ui: &mut Ui, state: &mut State) {
         }
         ui.weak(words::changes(n));
     });
+    ui.add_space(4.0);
     ui.spacing_mut().indent = INDENT;
     let SceneFile { root, changes, .. } = &mut file;
     let mut tree = Tree { left: ui.cursor().left(), way: vec![], changes };
-    tree.children(ui, root);
+    tree.children(ui, root, Meaning::Block(&SCENE, None));
     state.file = Some(file);
 }
 
@@ -55,64 +62,105 @@ struct Tree<'f> {
     left: f32,
     /// The numbers of the children on the way here.
     way: Vec<usize>,
-    changes: &'f mut BTreeMap<Vec<usize>, String>,
+    changes: &'f mut Changes,
 }
 
 impl Tree<'_> {
-    fn children(&mut self, ui: &mut Ui, element: &Element) {
+    fn children(&mut self, ui: &mut Ui, element: &Element, meaning: Meaning) {
         let mut titles = HashMap::new();
+        let gamma = self.gamma(element);
         for (index, child) in element.children.iter().take(MOST_CHILDREN).enumerate() {
             self.way.push(index);
-            if child.children.is_empty() {
-                self.leaf(ui, child);
+            let of_child = meaning.child(&child.name);
+            if child.children.is_empty() && of_child.defaults(child).is_empty() {
+                self.leaf(ui, child, of_child, gamma);
             } else {
                 let title = title(child);
                 let same = titles.entry(title.clone()).and_modify(|n| *n += 1).or_insert(1);
                 // Two models of one mesh, say.
                 let title = if *same > 1 { words::one_of_many(&title, *same) } else { title };
-                CollapsingHeader::new(title)
-                    .id_salt(self.way.as_slice())
-                    .show(ui, |ui| self.children(ui, child));
+                let header = CollapsingHeader::new(title).id_salt(self.way.as_slice());
+                let header = header.show(ui, |ui| self.children(ui, child, of_child)).header_response;
+                header.on_hover_ui(|ui| drop(ui.label(words::meaning(of_child))));
             }
             self.way.pop();
         }
         if element.children.len() > MOST_CHILDREN {
             ui.weak(words::more_elements(element.children.len() - MOST_CHILDREN));
         }
+        self.added(ui, meaning);
+        self.add(ui, element, meaning);
     }
 
-    fn leaf(&mut self, ui: &mut Ui, element: &Element) {
-        let old = &*element.text.value;
-        ui.horizontal(|ui| {
-            let width = (EDGE - (ui.cursor().left() - self.left)).max(LEAST_NAME);
-            let size = vec2(width, ui.spacing().interact_size.y);
-            let name = ui
-                .allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
-                    ui.set_min_width(width);
-                    ui.add(Label::new(&*element.name).truncate()).id
-                })
-                .inner;
-            if old.len() > LONGEST || element.mesh.is_some() {
-                ui.weak(words::LONG_TEXT);
-                return;
+    /// What is to be added to an element.
+    fn added(&mut self, ui: &mut Ui, meaning: Meaning) {
+        let Some(texts) = self.changes.added.get_mut(&self.way) else { return };
+        let mut removed = None;
+        for (name, text) in texts.iter_mut() {
+            let row = Row { is_changed: true, ..Row::new(name, meaning.child(name), self.left) };
+            if row.show_added(ui, text) {
+                removed = Some(*name);
             }
-            let mut text = self.changes.get(&self.way).cloned().unwrap_or_else(|| old.to_owned());
-            let colour = colour(&text).filter(|_| &*element.name == "rgb");
-            // A colour's patch stands at the right, so that all fields begin at one edge.
-            let patch = colour.map_or(0.0, |_| ui.spacing().interact_size.x + ui.spacing().item_spacing.x);
-            let field = TextEdit::singleline(&mut text).desired_width(ui.available_width() - patch);
-            ui.add(field).labelled_by(name);
-            if let Some(mut colour) = colour
-                && ui.color_edit_button_rgb(&mut colour).labelled_by(name).changed()
-            {
-                text = colour.map(|v| format!("{v:.4}")).join(" ");
-            }
-            if text == old {
-                self.changes.remove(&self.way);
-            } else {
-                self.changes.insert(self.way.clone(), text);
-            }
+        }
+        if let Some(name) = removed {
+            self.changes.take_back(&self.way, name);
+        }
+    }
+
+    /// Offers what can be added, with what holds without it.
+    fn add(&mut self, ui: &mut Ui, element: &Element, meaning: Meaning) {
+        let mut defaults = meaning.defaults(element);
+        let added = self.changes.added.get(&self.way);
+        defaults.retain(|(field, _)| added.is_none_or(|added| !added.contains_key(field.name)));
+        if defaults.is_empty() {
+            return;
+        }
+        let button = RichText::new(words::ADD_ELEMENT).small();
+        let menu = ui.menu_button(button, |ui| {
+            ui.set_min_width(LIST_WIDTH);
+            ScrollArea::vertical().max_height(LIST).show(ui, |ui| {
+                for (field, text) in &defaults {
+                    let item =
+                        Button::new(field.name).right_text(RichText::new(words::default(field, text)).weak());
+                    if ui.add(item).on_hover_text(words::declared(field)).clicked() {
+                        let added = self.changes.added.entry(self.way.clone()).or_default();
+                        added.insert(field.name, (*text).to_owned());
+                        ui.close();
+                    }
+                }
+            });
         });
+        menu.response.on_hover_text(words::add_to(&element.name));
+    }
+
+    fn leaf(&mut self, ui: &mut Ui, element: &Element, meaning: Meaning, gamma: f64) {
+        let old = &*element.text.value;
+        let mut text = self.changes.texts.get(&self.way).cloned().unwrap_or_else(|| old.to_owned());
+        let row = Row {
+            is_changed: text != old,
+            is_long: field::is_long(old) || element.mesh.is_some(),
+            gamma,
+            ..Row::new(&element.name, meaning, self.left)
+        };
+        row.show(ui, &mut text, old);
+        if text == old {
+            self.changes.texts.remove(&self.way);
+        } else {
+            self.changes.insert(self.way.clone(), text);
+        }
+    }
+
+    /// The power to which the components of a colour among the children of an element are raised.
+    fn gamma(&self, element: &Element) -> f64 {
+        let at = element.children.iter().position(|child| &*child.name == "gamma");
+        let in_file = at.map(|at| {
+            let way: Vec<usize> = self.way.iter().copied().chain([at]).collect();
+            let in_file = &element.children[at].text.value;
+            self.changes.texts.get(&way).map_or(&**in_file, String::as_str)
+        });
+        let added = || self.changes.added.get(&self.way)?.get("gamma").map(|text| &**text);
+        let gamma = in_file.or_else(added).and_then(|text| text.trim().parse().ok());
+        gamma.filter(|gamma: &f64| gamma.is_finite() && *gamma > 0.0).unwrap_or(1.0)
     }
 }
 
@@ -127,49 +175,5 @@ fn title(element: &Element) -> String {
     format!("{} {name}", element.name)
 }
 
-/// Three numbers within what a screen can show.
-fn colour(text: &str) -> Option<[f32; 3]> {
-    let numbers: Vec<f32> = text.split_whitespace().map_while(|word| word.parse().ok()).collect();
-    <[f32; 3]>::try_from(numbers).ok().filter(|colour| colour.iter().all(|v| (0.0..=1.0).contains(v)))
-}
-
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::recent::Recent;
-    use crate::theme;
-    use eframe::egui::Role;
-    use egui_kittest::Harness;
-    use egui_kittest::kittest::Queryable as _;
-    use indigo_front::flags::Arguments;
-
-    #[test]
-    fn only_colours_get_a_picker() {
-        assert_eq!(colour("0.5 0 1"), Some([0.5, 0.0, 1.0]));
-        assert_eq!(colour("0.5 0"), None);
-        assert_eq!(colour("0.5 0 7"), None);
-        assert_eq!(colour("a b c"), None);
-    }
-
-    /// Models have no names of their own, and fields of all depths are one column.
-    #[test]
-    fn models_are_told_from_each_other_and_fields_stand_in_a_column() {
-        let path = std::env::temp_dir().join(format!("indigo-tree-{}.igs", std::process::id()));
-        let text = "<scene><model><mesh_name>cube</mesh_name><scale>1</scale></model>\
-                    <model><mesh_name>cube</mesh_name></model>\
-                    <model><mesh_name>sphere</mesh_name><pos>0 0 1</pos></model><top>7</top></scene>";
-        std::fs::write(&path, text).unwrap();
-        let mut state = State::new(Arguments::default(), Recent::default());
-        state.file = Some(SceneFile::read(path.to_str().unwrap()).unwrap());
-        std::fs::remove_file(&path).unwrap();
-        let mut harness = Harness::builder().with_size(vec2(theme::SIDE, 600.0)).build_ui_state(tree, state);
-        harness.run();
-        harness.get_by_label("model cube").click();
-        harness.run();
-        assert!(harness.query_by_label("model cube (2)").is_some());
-        assert!(harness.query_by_label("model sphere").is_some());
-        let fields = harness.query_all_by_role(Role::TextInput).map(|field| field.rect().left());
-        let lefts: Vec<f32> = fields.collect();
-        assert_eq!(lefts, [lefts[0]; 3], "two of the model, and one beside it");
-    }
-}
+mod tests;

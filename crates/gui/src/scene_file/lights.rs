@@ -56,7 +56,7 @@ fn set_gain(layer: &Element, group: &LightGroup, old: &LightGroup, edits: &mut E
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene_file::SceneFile;
+    use crate::scene_file::{NotSaved, SceneFile};
 
     fn written(layers: &str, change: impl Fn(&mut LightMix)) -> Result<String, String> {
         let path = std::env::temp_dir().join(format!(
@@ -81,7 +81,7 @@ mod tests {
         change(&mut now);
         let mut edits = Edits::default();
         edit(&file.root, &now, &was, &mut edits)?;
-        file.write(&edits)?;
+        file.write(&edits).map_err(NotSaved::in_words)?;
         let text = std::fs::read_to_string(&path).expect("it is there");
         std::fs::remove_file(&path).expect("it is there");
         Ok(text)

@@ -32,10 +32,11 @@ impl State {
             return;
         }
         let waiting = self.set_aside.remove(file.path());
-        for earlier in waiting.iter().chain(&self.file) {
-            file.take_changes(earlier);
-        }
+        let lost: usize = waiting.iter().chain(&self.file).map(|earlier| file.take_changes(earlier)).sum();
         self.file = Some(file);
+        if lost > 0 {
+            self.tell(Weight::Warning, words::lost_changes(lost));
+        }
     }
 
     /// All that is to be saved, to be put back where that fails.

@@ -54,7 +54,7 @@ mod tests {
 
     /// What the user is asked, which is as good as answered then.
     fn asked(state: &mut State) -> Option<Question> {
-        state.question.take()
+        state.questions.take().map(|(question, _)| question)
     }
 
     #[test]

@@ -31,7 +31,7 @@ pub fn only_looked_at(path: &Path, reason: &str) -> String {
 
 /// A path that is no text.
 pub fn not_text(path: &Path) -> String {
-    format!("the path {} is not valid Unicode", path.display())
+    format!("The path {} is not valid Unicode", path.display())
 }
 
 /// A file was written.
@@ -70,22 +70,17 @@ pub fn is_folder(path: &Path) -> String {
 
 /// No such folder.
 pub fn no_folder(path: &Path) -> String {
-    format!("there is no folder {}", path.display())
+    format!("There is no folder {}", path.display())
 }
 
 /// No such file.
 pub fn no_file(path: &Path) -> String {
-    format!("there is no file {}", path.display())
+    format!("There is no file {}", path.display())
 }
 
 /// A file that would be written over.
 pub fn is_there(path: &Path) -> String {
     format!("{} is there already: save once more to replace it", path.display())
-}
-
-/// Changed elements that would be lost.
-pub fn unsaved(n: usize) -> String {
-    format!("{} to the scene's elements would be lost.", indigo_front::messages::count(n, "change"))
 }
 
 /// Changed elements of a scene that is not open any more.
@@ -125,6 +120,11 @@ pub fn ending(what: OneFile) -> &'static str {
     }
 }
 
+/// A file in the place of a new key.
+pub fn key_is_there(path: &Path) -> String {
+    format!("{} is there already and will not be replaced: choose another name", path.display())
+}
+
 /// A packed scene cannot be changed.
 pub fn packed(path: &str) -> String {
     format!("{path} is packed: to change it, unpack it with indigo_console --unpack")
@@ -137,7 +137,12 @@ pub fn unreadable(path: &str) -> String {
 
 /// A file is another than the one that was read.
 pub fn changed_elsewhere(path: &str) -> String {
-    format!("{path} has changed since it was read: reload the scene first")
+    format!("{path} was changed elsewhere, so nothing was saved; it is read again: save once more")
+}
+
+/// A file that nobody is to write to.
+pub fn read_only(path: &str) -> String {
+    format!("{path} is read-only: nothing was saved")
 }
 
 /// A key was made.
