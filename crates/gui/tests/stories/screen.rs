@@ -26,7 +26,9 @@ pub mod keys {
     pub const END: u32 = 0xff57;
     pub const TAB: u32 = 0xff09;
     pub const F2: u32 = 0xffbf;
+    pub const BRACKET_LEFT: u32 = 0x5b;
     pub const BRACKET_RIGHT: u32 = 0x5d;
+    pub const BACKSPACE: u32 = 0xff08;
     pub const SPACE: u32 = 0x20;
 }
 
