@@ -271,8 +271,7 @@ fn what_cannot_shine_is_told() {
     let film = other.replace("</coating>", "<interference>true</interference></coating>");
     scene_with(&coated(&film), &["W0102 <interference> of a <coating> over <diffuse> has no effect"]);
     let on_metal = |more: &str| {
-        let metal =
-            material("gold", "<phong><nk_data>au.nk</nk_data><exponent>100</exponent></phong>");
+        let metal = material("gold", "<phong><nk_data>au.nk</nk_data><exponent>100</exponent></phong>");
         coated(&film.replace(">m<", ">gold<").replace("</coating>", &format!("{more}</coating>"))) + &metal
     };
     scene_with(&on_metal("<thickness>2e-7</thickness>"), &[]);
