@@ -265,7 +265,7 @@ mod tests {
         let (woken, waking) = std::sync::mpsc::channel();
         std::thread::scope(|scope| {
             scope.spawn(|| {
-                desk.work(&move || _ = woken.send(()), &|| panic!("a picture cannot be developed"))
+                desk.work(&move || _ = woken.send(()), &|| panic!("a picture cannot be developed"));
             });
             let wait = || {
                 waking.recv_timeout(Duration::from_mins(1)).expect("a picture");

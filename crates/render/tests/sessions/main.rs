@@ -76,6 +76,7 @@ fn options(threads: usize, samples_per_pixel: u64) -> Options {
         halt: Halt { samples_per_pixel: Some(samples_per_pixel), ..Halt::default() },
         epoch: Duration::from_millis(5),
         deterministic: true,
+        estimates_error: false,
     }
 }
 

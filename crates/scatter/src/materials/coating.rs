@@ -214,5 +214,5 @@ fn report_unfit_for_films(node: &Node, sink: &mut Sink) {
             sink.push_or_count(Diagnostic::warning(codes::LATER_ELEMENT, node.span_of(field), why));
         }
     }
-    ["roughness", "roughness_map"].iter().for_each(|field| node.disregard_field(field));
+    node.disregard_fields(&["roughness", "roughness_map"]);
 }

@@ -132,6 +132,7 @@ fn make_room(folder: &Folder) {
     std::fs::create_dir(folder.0.join("away")).expect("a folder");
 }
 
+#[expect(clippy::needless_pass_by_value, reason = "what was heard is handed over")]
 fn n_unsaved(update: Update) -> Option<usize> {
     match update {
         Update::Unsaved(n) => Some(n),

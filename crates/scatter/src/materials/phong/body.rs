@@ -96,6 +96,7 @@ impl ThrownBack {
 /// 2 ∫ R(μ) exp(−2 τ / μ) μ dμ over the cosines inside: the part of diffuse light that is reflected from below by a surface of a relative
 /// index, of which all but total reflection is scaled, and comes down again.
 fn thrown_back(eta: Real, scale: Real, depth: f64) -> f64 {
+    // tidy: load-time mathematics
     let way = |cos: f64| if depth == 0.0 { 1.0 } else { (-2.0 * depth / cos).exp() };
     if eta <= 1.0 {
         // From below nothing is reflected totally.
