@@ -1,5 +1,6 @@
 //! `meshlight`: a lamp in the shape of a mesh.
 
+use super::LAYER;
 use super::efficacy::EFFICACY_SCALE;
 use super::placement::{MESH_NAME, POS, ROTATION, SCALE};
 use indigo_decl::{Block, Field, Kind, Later, Presence};
@@ -32,9 +33,10 @@ pub static BLOCK: Block = Block::new(
             "A measured distribution over directions. The flux is then that of the file, and `efficacy_scale` \
              has no effect.",
         ),
+        LAYER,
     ],
 )
-.with_later(&[Later::new("uid", "3.0"), Later::new("layer", "1.1")])
+.with_later(&[Later::new("uid", "3.0")])
 .with_example(
     "<meshlight>
     <pos>0 0 3</pos>

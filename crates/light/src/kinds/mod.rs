@@ -14,8 +14,15 @@ pub mod sky;
 pub mod skylight;
 pub mod sun;
 
+use indigo_decl::Field;
 use indigo_math::{Real, Vec3};
 use indigo_spectrum::{SampledSpectrum, SampledWavelengths};
+
+/// Whose switch a lamp hangs on.
+pub(crate) const LAYER: Field = Field::index(
+    "layer",
+    "Number of the `layer_setting` in `renderer_settings` that it is scaled by. Of version 1.1.",
+);
 
 /// A light that is infinitely far away: radiance by direction, and a way of drawing directions.
 ///

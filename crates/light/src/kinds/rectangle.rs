@@ -1,5 +1,6 @@
 //! `rectanglelight`: a horizontal lamp that shines downwards.
 
+use super::LAYER;
 use super::efficacy::EFFICACY_SCALE;
 use indigo_decl::{Block, Field, Kind, Later, Presence, Range};
 use indigo_spectrum::declare::SPECTRUM;
@@ -19,9 +20,10 @@ pub static BLOCK: Block = Block::new(
             .range(Range::Above(0.0)),
         Field::new("spectrum", Kind::OneOf(&SPECTRUM), Presence::Required, "What it emits."),
         EFFICACY_SCALE,
+        LAYER,
     ],
 )
-.with_later(&[Later::new("uid", "3.0"), Later::new("layer", "1.1")])
+.with_later(&[Later::new("uid", "3.0")])
 .with_example(
     "<rectanglelight>
     <pos>0.0 0 1.9</pos>

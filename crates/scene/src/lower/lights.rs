@@ -71,7 +71,7 @@ impl Lights {
             shape.report_rounding(node.span, context.sink);
             let uv = meshes.known(&name.value).map_or(UvSets::Named(&[]), Mesh::uv);
             let lamp = lamps::mesh_light(node, &shape, uv, materials, context);
-            self.lamps.push(lamps::in_layer(lamp, &materials.layer(0)));
+            self.lamps.push(lamps::in_layer(lamp, &materials.layer(node.int("layer"))));
         }
     }
 
@@ -94,7 +94,7 @@ impl Lights {
             let shape = Shape::new(geometry.object(object), meshes.triangles(mesh));
             shape.report_rounding(node.span, sink);
             let lamp = lamps::rectangle_light(node, &shape, sink);
-            self.lamps.push(lamps::in_layer(lamp, &materials.layer(0)));
+            self.lamps.push(lamps::in_layer(lamp, &materials.layer(node.int("layer"))));
         }
     }
 

@@ -165,6 +165,17 @@ fn lights_are_of_the_layers_that_they_name() {
     assert_eq!(of(&sky("<sun_layer>1</sun_layer><sky_layer>2</sky_layer>")), ["b", "c"]);
     assert_eq!(of(&sky("<sun_layer>1</sun_layer><sky_layer>7</sky_layer>")), ["b", "other lights"]);
     assert_eq!(of(&meshlight("")), ["a"]);
+    assert_eq!(of(&meshlight("<layer>2</layer>")), ["c"]);
+    let lamp = |layer: &str| {
+        let size = "<pos>0 0 3</pos><width>1</width><height>1</height>";
+        format!("{CAMERA}<rectanglelight>{size}{layer}<spectrum>{BODY}</spectrum></rectanglelight>")
+    };
+    assert_eq!(of(&lamp("<layer>1</layer>")), ["b"]);
+    assert_eq!(of(&lamp("")), ["a"]);
+    assert_eq!(
+        of(&(lamp("<layer>2</layer>") + &meshlight("<layer>1</layer>").replace(CAMERA, ""))),
+        ["b", "c"]
+    );
     let sunsky = "<sunsky><sundir>0 0.6 1</sundir><sun_layer>2</sun_layer><sky_layer>1</sky_layer></sunsky>";
     assert_eq!(of(&background(sunsky, "")), ["b", "c"]);
     // Without layers nothing is kept apart.
