@@ -100,7 +100,7 @@ mod tests {
     use crate::work::Work;
     use egui_kittest::Harness;
     use egui_kittest::kittest::Queryable as _;
-    use indigo_front::flags::Arguments;
+    use indigo_front::flags::{Arguments, Role};
     use indigo_front::load::load_scene;
 
     /// A scene is open, and every panel has something to show.
@@ -113,6 +113,7 @@ mod tests {
         let work = Work::of(&facts.output, None);
         state.take(Update::Scene(Box::new(facts), Some(work)));
         state.take(Update::Phase(Phase::Ready));
+        state.part.role = Some(Role::WorkingMaster);
         state.queue.add("a scene with a name that is longer than there is room for it in a line.igs".into());
         state.file = Some(SceneFile::read(path).expect("the scene is there"));
         let (head, full) = ("something ".repeat(40), "something".to_owned());
