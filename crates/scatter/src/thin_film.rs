@@ -4,6 +4,9 @@ use indigo_math::Real;
 use indigo_math::elementary::{exp, sin_cos_turns};
 use num_complex::Complex;
 
+/// Beyond so many turns single precision loses the phase, and fringes are finer than any picture shows: their mean takes their place.
+const MOST_TURNS: Real = 1e4;
+
 /// Reflectance for unpolarised light of a clear film on a metal, or on anything of the complex index `ground` = n + ik, at the
 /// cosine `cos` in [0, 1] to the normal outside (Born & Wolf, "Principles of Optics", section 14.4.1: all reflections
 /// within the film summed).
@@ -11,20 +14,49 @@ use num_complex::Complex;
 /// `film` and `ground` are over the index of what lies outside. `turns` is 2 n₀ d / λ for an index n₀ outside, a thickness d
 /// and a wavelength λ in vacuum: twice the film's thickness in wavelengths outside.
 #[inline]
-pub fn reflectance(cos: Real, film: Real, [n, k]: [Real; 2], turns: Real) -> Real {
+pub fn reflectance(cos: Real, film: Real, ground: [Real; 2], turns: Real) -> Real {
+    if turns > MOST_TURNS {
+        return mean_reflectance(cos, film, ground);
+    }
+    averaged(cos, film, ground, |above, below, normal| summed(above, below, through(normal, turns)))
+}
+
+/// The mean of [`reflectance`] over the phases of a thick film.
+#[inline]
+pub fn mean_reflectance(cos: Real, film: Real, ground: [Real; 2]) -> Real {
+    averaged(cos, film, ground, |above, below, normal| {
+        // A wave that does not travel in the film does not reach the ground.
+        if normal.im > 0.0 {
+            return above.norm_sqr().min(1.0);
+        }
+        // Powers of all ways summed: a + (1 − a)² b / (1 − a b).
+        let (a, b) = (above.norm_sqr().min(1.0), below.norm_sqr().min(1.0));
+        if a * b < 1.0 { 1.0 - (1.0 - a) * (1.0 - b) / (1.0 - a * b) } else { 1.0 }
+    })
+}
+
+/// The mean over both polarisations of what becomes of the amplitudes that the two boundaries reflect, and the normal component in
+/// the film of the wave vector over that of vacuum times the index outside.
+#[inline]
+fn averaged(
+    cos: Real,
+    film: Real,
+    [n, k]: [Real; 2],
+    combine: impl Fn(Complex<Real>, Complex<Real>, Complex<Real>) -> Real,
+) -> Real {
     let cos = cos.min(1.0);
     if cos <= 0.0 {
         return 1.0;
     }
-    let sin2 = 1.0 - cos * cos;
-    // Squared indices, and the normal components of wave vectors over that of vacuum times the index outside.
+    // Squared indices, of which the sine's square is taken so that none is lost near grazing.
     let squares = [Complex::from(1.0), Complex::from(film * film), Complex::new(n * n - k * k, 2.0 * n * k)];
-    let normal = [Complex::from(cos), root(squares[1] - sin2), root(squares[2] - sin2)];
-    let way = through(normal[1], turns);
+    let within = (film - 1.0) * (film + 1.0) + cos * cos;
+    let below = Complex::new((n - 1.0) * (n + 1.0) - k * k + cos * cos, 2.0 * n * k);
+    let normal = [Complex::from(cos), root(Complex::from(within)), root(below)];
     let perpendicular = |a: usize, b: usize| quotient(normal[a], normal[b]);
     let parallel = |a: usize, b: usize| quotient(squares[b] * normal[a], squares[a] * normal[b]);
-    0.5 * (summed(perpendicular(0, 1), perpendicular(1, 2), way)
-        + summed(parallel(0, 1), parallel(1, 2), way))
+    0.5 * (combine(perpendicular(0, 1), perpendicular(1, 2), normal[1])
+        + combine(parallel(0, 1), parallel(1, 2), normal[1]))
 }
 
 /// The power of all that comes back, from the amplitudes that the two boundaries reflect and that of a way down and up.
@@ -108,6 +140,36 @@ mod tests {
             assert_near(reflectance(1.0, film, [ground, 0.0], 0.5 / film), quarter * quarter, 1e-6);
             let bare = (ground - 1.0) / (ground + 1.0);
             assert_near(reflectance(1.0, film, [ground, 0.0], 1.0 / film), bare * bare, 1e-6);
+        }
+    }
+
+    /// The mean is that over the phase, which one more turn along the normal makes go round once.
+    #[test]
+    fn the_mean_of_thick_films_is_that_over_the_phase() {
+        for (cos, film) in [(1.0, 1.5), (0.5, 1.5), (0.2, 2.4), (0.9, 1.01)] {
+            for ground in [[2.7, 3.8], [0.2, 3.4], [1.5, 0.0]] {
+                let normal = ((film - 1.0) * (film + 1.0) + cos * cos as Real).sqrt();
+                let steps: u16 = 2000;
+                let at = |i: u16| (5.0 + Real::from(i) / Real::from(steps)) / normal;
+                let sum: Real = (0..steps).map(|i| reflectance(cos, film, ground, at(i))).sum();
+                assert_near(mean_reflectance(cos, film, ground), sum / Real::from(steps), 2e-4);
+                assert_near(reflectance(cos, film, ground, 1e30), sum / Real::from(steps), 2e-4);
+            }
+        }
+    }
+
+    #[test]
+    fn grazing_light_is_reflected_and_nothing_is_no_number() {
+        assert!(reflectance(1e-4, 1.0, [0.2, 3.4], 0.7) > 0.99);
+        for cos in [0.0, 1e-30, 1e-4, 0.5, 1.0] {
+            for film in [1.0, 1.5, 1e3] {
+                for ground in [[1.0, 0.0], [0.2, 3.4], [1e3, 1e3], [0.0, 0.0]] {
+                    for turns in [0.0, 1e-30, 0.3, 1e4, 1e30, Real::INFINITY] {
+                        let r = reflectance(cos, film, ground, turns);
+                        assert!((0.0..=1.0).contains(&r), "{cos} {film} {ground:?} {turns}: {r}");
+                    }
+                }
+            }
         }
     }
 

@@ -20,20 +20,22 @@ fn a_coat_deepens_the_colour_below() {
         let r = 1.0 - (1.0 - scale * 0.091_778) / 2.25;
         albedo * (1.0 - r) / (1.0 - albedo * r)
     };
-    for (albedo, more, degrees, fresnel) in [
-        (0.5, "", 0.0, 0.04),
+    for (albedo, more, degrees, fresnel, scale) in [
+        (0.5, "", 0.0, 0.04, 1.0),
         (
             0.5,
             "<ior><constant>1.5</constant></ior><interference>false</interference><thickness><constant>1</constant></thickness>",
             60.0,
             0.089_195,
+            1.0,
         ),
-        (1.0, "", 0.0, 0.04),
-        (0.5, "<fresnel_scale><constant>0</constant></fresnel_scale>", 0.0, 0.0),
+        (1.0, "", 0.0, 0.04, 1.0),
+        (0.5, "<fresnel_scale><constant>0.4</constant></fresnel_scale>", 0.0, 0.04, 0.4),
+        (0.5, "<fresnel_scale><constant>0</constant></fresnel_scale>", 0.0, 0.04, 0.0),
     ] {
         let scene = sheet_with(&coat(more), degrees, "", &grey("below", albedo));
-        let scale = if fresnel == 0.0 { 0.0 } else { 1.0 };
-        let expected = fresnel + ground(albedo, scale) * (1.0 - fresnel);
+        let reflected = scale * fresnel;
+        let expected = reflected + ground(albedo, scale) * (1.0 - reflected);
         assert_near(
             &format!("{albedo}, {more}, {degrees}°"),
             measure(&scene, 8, 400).luminance(),

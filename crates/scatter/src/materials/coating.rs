@@ -10,7 +10,7 @@
 
 use super::fields::{
     BASE_EMISSION, BASE_EMISSION_PARAMETER, BUMP, BUMP_MAP, EMISSION, EMISSION_PARAMETER, EMISSION_TEXTURE,
-    FRESNEL_SCALE_PARAMETER, LAYER, ROUGHNESS, ROUGHNESS_MAP, ROUGHNESS_PARAMETER,
+    FRESNEL_SCALE_PARAMETER, LAYER, ROUGHNESS_MAP, ROUGHNESS_PARAMETER,
 };
 use super::phong::{Film, Phong};
 use super::{Material, MaterialResources, Surface};
@@ -26,7 +26,7 @@ pub static BLOCK: Block = Block::new(
     "coating",
     "A thin coat over another material, of version 3.0. It is rendered over a `diffuse` material and, with `interference`, over \
      a `phong` of `nk_data`; any other stands in without its coat, with a warning. It shines by its \
-     own emission, or else by that of the material below.",
+     own emission, or else by that of the material below, of which it absorbs nothing.",
     &[
         Field::new(
             "substrate_material_name",
@@ -36,14 +36,20 @@ pub static BLOCK: Block = Block::new(
         )
         .aliases(&["substrate_material_uid"]),
         Field::new("ior", Kind::Real, Presence::Default("1.5"), "Index of refraction of the coat.")
-            .range(Range::AtLeast(1.0)),
-        ROUGHNESS,
+            .range(Range::Within(1.0, 1000.0)),
+        Field::new(
+            "roughness",
+            Kind::Real,
+            Presence::Optional,
+            "How rough the coat is: the width α of the distribution of small facets, from 0 to 1; smooth where it is missing.",
+        )
+        .range(Range::Within(0.0, 1.0)),
         ROUGHNESS_MAP,
         Field::new(
             "fresnel_scale",
             Kind::Real,
             Presence::Default("1"),
-            "Factor on the reflectance of the coat. Values above 1 are silently clamped.",
+            "Factor on the reflectance of the coat, or of a metal and the film on it. Values above 1 are silently clamped.",
         )
         .range(Range::AtLeast(0.0)),
         Field::new(
@@ -184,7 +190,8 @@ fn optical_depth(node: &Node, sink: &mut Sink) -> Option<Spectrum> {
         ));
         return None;
     }
-    Some(absorption.scaled(thickness))
+    // No light is left long before that, and single precision ends soon after.
+    Some(absorption.scaled(thickness).clamped(0.0, 1e30))
 }
 
 fn report_lost_interference(node: &Node, sink: &mut Sink) {
@@ -197,7 +204,7 @@ fn report_lost_interference(node: &Node, sink: &mut Sink) {
 /// What a film has no use for: it follows the facets of the metal, and is too thin to absorb.
 fn report_unfit_for_films(node: &Node, sink: &mut Sink) {
     let absorbs = node.node("absorption_spectrum").is_some_and(|a| read::coefficient(a, sink).max() > 0.0);
-    let is_rough = node.has("roughness_map") || node.opt_real("roughness").is_some_and(|r| r.value > 0.0);
+    let is_rough = node.opt_real("roughness").is_some_and(|r| r.value > 0.0);
     for (is_said, field, why) in [
         (
             absorbs,
@@ -208,6 +215,16 @@ fn report_unfit_for_films(node: &Node, sink: &mut Sink) {
             is_rough,
             "roughness",
             "<roughness> of a <coating> with <interference> has no effect: the film is as rough as the metal below",
+        ),
+        (
+            node.has("roughness_map"),
+            "roughness_map",
+            "<roughness> of a <coating> with <interference> has no effect: the film is as rough as the metal below",
+        ),
+        (
+            node.real("thickness") == 0.0,
+            "interference",
+            "<interference> of a <coating> without a <thickness> has no effect",
         ),
     ] {
         if is_said {

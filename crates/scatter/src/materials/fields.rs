@@ -70,6 +70,18 @@ pub const ROUGHNESS_PARAMETER: Parameter = Parameter {
     stand_in: StandIn::Text("0.3"),
 };
 
+/// The map of roughness. What it takes the place of has no effect, which is told.
+pub fn map_of_widths<'a>(node: &'a Node, sink: &mut Sink) -> Option<&'a Node> {
+    let map = node.node(ROUGHNESS_MAP.name)?;
+    if node.has(ROUGHNESS.name) {
+        let message = "<roughness> has no effect beside <roughness_map>";
+        let at = node.span_of(ROUGHNESS.name);
+        sink.push_or_count(Diagnostic::warning(codes::DUPLICATE_ELEMENT, at, message));
+        node.disregard_field(ROUGHNESS.name);
+    }
+    Some(map)
+}
+
 /// An exponent has no effect where a material says by its roughness how rough it is; that is told.
 pub fn disregard_exponents(node: &Node, sink: &mut Sink) {
     // In the order in which they count.

@@ -27,7 +27,7 @@ pub use declare::BLOCK;
 pub(super) use declare::FAST_SSS_FIELDS;
 pub use leaf::PhongLeaf;
 
-use super::fields::disregard_exponents;
+use super::fields::{disregard_exponents, map_of_widths};
 use super::{MaterialContext, MaterialResources, SurfaceKind};
 use crate::directional_albedo::{AlbedoRow, LaneRows};
 use crate::fresnel::{conductor, dielectric, diffuse_average};
@@ -42,7 +42,7 @@ use indigo_diag::{Diagnostic, Sink};
 use indigo_math::{Float, Real, Vec2};
 use indigo_spectrum::{SampledSpectrum, Spectrum};
 use indigo_texture::TextureId;
-use leaf::Fresnel;
+use leaf::{Fresnel, scaled};
 
 /// A glossy surface.
 #[derive(Clone, Debug)]
@@ -131,11 +131,8 @@ impl Phong {
         ground: Reflectance,
         resources: &mut dyn MaterialResources,
     ) -> Self {
-        let gloss = match node.node("roughness_map") {
-            Some(map) => {
-                node.disregard_field("roughness");
-                Gloss::Widths(resources.shares(map))
-            }
+        let gloss = match map_of_widths(node, resources.sink()) {
+            Some(map) => Gloss::Widths(resources.shares(map)),
             // Smooth where it says nothing.
             None => Gloss::Uniform(Microfacets::of_width(Real::from_f64(
                 node.opt_real("roughness").map_or(0.0, |width| width.value),
@@ -264,7 +261,7 @@ impl Gloss {
     fn build(node: &Node, resources: &mut dyn MaterialResources) -> Self {
         // What a later version brought counts before what it had from an earlier one.
         disregard_exponents(node, resources.sink());
-        if let Some(map) = node.node("roughness_map") {
+        if let Some(map) = map_of_widths(node, resources.sink()) {
             return Self::Widths(resources.shares(map));
         }
         if let Some(width) = node.opt_real("roughness") {
@@ -297,7 +294,7 @@ impl Kind {
             // Of white facets: what metals lack is given back in white, and coloured by the way.
             return AlbedoRow::of_facets(facets, |_| 1.0);
         };
-        let reflectance = |cos| dielectric(cos, eta / outside).reflectance * fresnel_scale;
+        let reflectance = |cos| scaled(dielectric(cos, eta / outside), fresnel_scale);
         if outside > *eta {
             AlbedoRow::above_facets(facets, critical_cosine(eta / outside), reflectance)
         } else {
@@ -334,10 +331,11 @@ fn average_of_metal(n: &Spectrum, k: &Spectrum, film: Option<Film>, outside: Rea
             let metal = [n, k].map(|part| Real::from_f64(part.at(lambda)) / outside);
             diffuse_average(|cos| match film {
                 None => conductor(cos, metal[0], metal[1]),
-                Some(film) => {
-                    let turns = film.turns(outside, Real::from_f64(lambda));
-                    thin_film::reflectance(cos, film.index / outside, metal, turns)
-                }
+                Some(film) => match film.turns(outside, Real::from_f64(lambda)) {
+                    // Fringes that steps of 5 nm follow.
+                    turns if turns < 10.0 => thin_film::reflectance(cos, film.index / outside, metal, turns),
+                    _ => thin_film::mean_reflectance(cos, film.index / outside, metal),
+                },
             })
         })
         .collect();

@@ -291,6 +291,7 @@ fn what_cannot_shine_is_told() {
         &[
             "W0102 <absorption> of a <coating> with <interference> has no effect",
             "W0102 <roughness> of a <coating> with <interference> has no effect",
+            "W0102 <interference> of a <coating> without a <thickness> has no effect",
         ],
     );
     let double =

@@ -2,7 +2,7 @@
 
 use super::body::passage;
 use crate::directional_albedo::LaneRows;
-use crate::fresnel::{conductor, dielectric, schlick};
+use crate::fresnel::{Dielectric, conductor, dielectric, schlick};
 use crate::microfacet::Microfacets;
 use crate::scatter::{Crossing, LocalSample, Scatter};
 use crate::thin_film;
@@ -33,22 +33,31 @@ pub(super) enum Fresnel {
 }
 
 impl Fresnel {
+    /// What a facet reflects, scaled: all of it but total reflection, beyond which no light goes on.
     #[inline]
-    fn eval(&self, cos: Real) -> SampledSpectrum {
+    fn eval(&self, cos: Real, scale: Real) -> SampledSpectrum {
         match self {
             Self::Coat { eta } => {
-                let of = |eta: Real| dielectric(cos, eta).reflectance;
+                let of = |eta: Real| scaled(dielectric(cos, eta), scale);
                 // Mostly the same at all wavelengths.
                 let hero = of(eta.hero());
                 eta.map(|lane| if lane == eta.hero() { hero } else { of(lane) })
             }
-            Self::Conductor { n, k } => SampledSpectrum::from_fn(|lane| conductor(cos, n[lane], k[lane])),
+            Self::Conductor { n, k } => {
+                SampledSpectrum::from_fn(|lane| scale * conductor(cos, n[lane], k[lane]))
+            }
             Self::Film { n, k, film, turns } => SampledSpectrum::from_fn(|lane| {
-                thin_film::reflectance(cos, film[lane], [n[lane], k[lane]], turns[lane])
+                scale * thin_film::reflectance(cos, film[lane], [n[lane], k[lane]], turns[lane])
             }),
-            Self::Schlick { r0 } => r0.map(|r0| schlick(cos, r0)),
+            Self::Schlick { r0 } => r0.map(|r0| scale * schlick(cos, r0)),
         }
     }
+}
+
+/// A scaled reflectance; total reflection stays as it is.
+#[inline]
+pub(super) fn scaled(light: Dielectric, scale: Real) -> Real {
+    if light.cos_transmitted > 0.0 { light.reflectance * scale } else { light.reflectance }
 }
 
 /// Facets, and what they do not reflect at once: in a coat it reaches the ground, on a metal other facets.
@@ -74,7 +83,7 @@ impl PhongLeaf {
     fn tint(&self, cos: Real) -> SampledSpectrum {
         match self.fresnel {
             Fresnel::Coat { .. } => SampledSpectrum::ONE,
-            _ => self.fresnel.eval(cos) * self.fresnel_scale,
+            _ => self.fresnel.eval(cos, self.fresnel_scale),
         }
     }
 
@@ -112,7 +121,7 @@ impl Scatter for PhongLeaf {
             return SampledSpectrum::ZERO;
         };
         let gloss = self.facets.density(h) * self.facets.shared_over_cosines(wo, wi);
-        self.fresnel.eval(wo.dot(h)) * (self.fresnel_scale * gloss)
+        self.fresnel.eval(wo.dot(h), self.fresnel_scale) * gloss
             + self.base * self.rows.complement(wo.z, wi.z) * self.passage(&[wo.z, wi.z])
     }
 
