@@ -69,7 +69,9 @@ pub fn surround(is_dark: bool) -> Color32 {
 /// The colour of a line of the log.
 pub fn of_weight(weight: Weight, visuals: &Visuals) -> Color32 {
     match weight {
-        Weight::Error => visuals.error_fg_color,
+        // Pure red is hard to read on either ground.
+        Weight::Error if visuals.dark_mode => Color32::from_rgb(255, 120, 105),
+        Weight::Error => Color32::from_rgb(180, 20, 10),
         Weight::Warning if visuals.dark_mode => Color32::from_rgb(240, 180, 70),
         Weight::Warning => Color32::from_rgb(150, 85, 0),
         Weight::Info => visuals.text_color(),

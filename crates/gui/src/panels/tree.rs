@@ -115,7 +115,7 @@ impl Tree<'_> {
         if defaults.is_empty() {
             return;
         }
-        let button = RichText::new(words::ADD_ELEMENT).small();
+        let button = words::ADD_ELEMENT;
         let menu = ui.menu_button(button, |ui| {
             ui.set_min_width(LIST_WIDTH);
             ScrollArea::vertical().max_height(LIST).show(ui, |ui| {

@@ -139,7 +139,7 @@ impl<'r> Row<'r> {
         ui.horizontal_top(|ui| {
             ui.add_space(self.indent(ui) + ui.spacing().item_spacing.x);
             let colour = theme::of_weight(Weight::Error, ui.visuals());
-            ui.add(Label::new(RichText::new(wrong).small().color(colour)).wrap());
+            ui.add(Label::new(RichText::new(wrong).color(colour)).wrap());
         });
     }
 }
