@@ -98,7 +98,7 @@ mod tests {
     use crate::recent::Recent;
     use crate::scene_file::SceneFile;
     use crate::work::Work;
-    use egui_kittest::Harness;
+    use egui_kittest::{Harness, HarnessBuilder};
     use egui_kittest::kittest::Queryable as _;
     use indigo_front::flags::{Arguments, Role};
     use indigo_front::load::load_scene;
@@ -121,6 +121,11 @@ mod tests {
         state
     }
 
+    /// Room for more than the side, in the theme from the first frame on.
+    fn wide() -> HarnessBuilder<State> {
+        Harness::builder().with_size(vec2(2.0 * theme::SIDE, 900.0)).with_context_setup(theme::set)
+    }
+
     #[test]
     fn nothing_is_wider_than_the_side() {
         // Less the margins of a panel, 8 points each.
@@ -139,9 +144,7 @@ mod tests {
             (Tab::Network, false, words::KEY_FILE),
         ] {
             let state = State { tab, shows_elements, ..full() };
-            let mut harness =
-                Harness::builder().with_size(vec2(2.0 * width, 900.0)).build_ui_state(show, state);
-            theme::set(&harness.ctx);
+            let mut harness = wide().build_ui_state(show, state);
             harness.run();
             assert!(harness.query_all_by_label(seen).count() > 0, "{tab:?} shows nothing");
         }
@@ -153,15 +156,14 @@ mod tests {
         let width = theme::SIDE - 16.0;
         let mut state = State { tab: Tab::Scene, shows_elements: true, ..full() };
         if let Some(file) = &mut state.file {
-            file.changes.insert(vec![0, 0], "-12345678901234567890".to_owned());
+            file.changes.insert(vec![0, 0], "-1234567890123456".to_owned());
         }
         let show = |ui: &mut Ui, state: &mut State| {
             ui.set_max_width(width);
             side(ui, state);
             assert!(ui.min_rect().width() <= width, "{}", ui.min_rect().width());
         };
-        let mut harness = Harness::builder().with_size(vec2(2.0 * width, 900.0)).build_ui_state(show, state);
-        theme::set(&harness.ctx);
+        let mut harness = wide().build_ui_state(show, state);
         for title in ["renderer_settings", "camera", "material white", "diffuse", "albedo_spectrum"] {
             harness.run();
             harness.get_by_label(title).click();
