@@ -98,8 +98,8 @@ mod tests {
     use crate::recent::Recent;
     use crate::scene_file::SceneFile;
     use crate::work::Work;
-    use egui_kittest::{Harness, HarnessBuilder};
     use egui_kittest::kittest::Queryable as _;
+    use egui_kittest::{Harness, HarnessBuilder};
     use indigo_front::flags::{Arguments, Role};
     use indigo_front::load::load_scene;
 
