@@ -21,6 +21,9 @@ pub const NAME: f32 = 130.0;
 pub const CONTROL: f32 = SIDE - 16.0 - NAME - SPACE;
 /// Width of numbers among them.
 pub const VALUE: f32 = 64.0;
+/// How far beyond what it scrolls the bar of the panel on the right ends: it is 2 points wide while the pointer is elsewhere,
+/// and stands in the middle of the panel's margin, where it covers no control.
+pub const BAR: f32 = (8.0 + 2.0) / 2.0;
 /// The space between what stands side by side.
 const SPACE: f32 = 8.0;
 
@@ -69,9 +72,9 @@ pub fn surround(is_dark: bool) -> Color32 {
 /// The colour of a line of the log.
 pub fn of_weight(weight: Weight, visuals: &Visuals) -> Color32 {
     match weight {
-        // Pure red is hard to read on either ground.
-        Weight::Error if visuals.dark_mode => Color32::from_rgb(255, 120, 105),
-        Weight::Error => Color32::from_rgb(180, 20, 10),
+        // Pure red is hard to read in small letters on a dark ground.
+        Weight::Error if visuals.dark_mode => Color32::from_rgb(255, 110, 100),
+        Weight::Error => Color32::from_rgb(190, 20, 20),
         Weight::Warning if visuals.dark_mode => Color32::from_rgb(240, 180, 70),
         Weight::Warning => Color32::from_rgb(150, 85, 0),
         Weight::Info => visuals.text_color(),

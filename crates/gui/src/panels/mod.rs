@@ -36,6 +36,7 @@ pub fn side(ui: &mut Ui, state: &mut State) {
         }
     });
     ui.separator();
+    ui.spacing_mut().scroll.bar_outer_margin = -theme::BAR;
     ScrollArea::vertical().id_salt(("side", state.tab)).auto_shrink(false).show(ui, |ui| match state.tab {
         Tab::Picture => tone::tone(ui, state),
         Tab::Render => work::work(ui, state),

@@ -115,8 +115,7 @@ impl Tree<'_> {
         if defaults.is_empty() {
             return;
         }
-        let button = words::ADD_ELEMENT;
-        let menu = ui.menu_button(button, |ui| {
+        let menu = ui.menu_button(words::ADD_ELEMENT, |ui| {
             ui.set_min_width(LIST_WIDTH);
             ScrollArea::vertical().max_height(LIST).show(ui, |ui| {
                 for (field, text) in &defaults {

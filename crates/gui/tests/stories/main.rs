@@ -106,6 +106,7 @@ fn exposure_changes_the_light_by_its_factor_and_reset_takes_it_back() {
         screen.press(&[key]);
         becomes(&mut screen, factor);
     }
+    screen.see().keep("exposure");
     // The number of the control itself.
     screen.click([LARGE[0] as i16 - 40, EV]);
     std::thread::sleep(Duration::from_millis(500));
