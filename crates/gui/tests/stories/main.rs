@@ -86,7 +86,10 @@ fn ask_to_close(screen: &mut Screen) -> f64 {
 fn exposure_changes_the_light_by_its_factor_and_reset_takes_it_back() {
     let folder = scratch("exposure");
     let mut screen = Screen::start(&folder, LARGE, &[&even_light(&folder), "-o", "even.png"]);
+    // With all its samples: the light of fewer is another.
+    screen.wait_for("the end", |_| folder.join("even.png").exists().then_some(()));
     wait_for_picture(&mut screen);
+    std::thread::sleep(Duration::from_secs(2));
     let before = screen.see_picture().light();
     assert!(before.iter().all(|light| (0.02..0.4).contains(light)), "{before:?}");
     // Codes are whole numbers: at 0.1 of full light a step between two is less than 2.5 % of the light.
