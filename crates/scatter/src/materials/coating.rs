@@ -12,7 +12,7 @@ use super::fields::{
     BASE_EMISSION, BASE_EMISSION_PARAMETER, BUMP, BUMP_MAP, EMISSION, EMISSION_PARAMETER, EMISSION_TEXTURE,
     FRESNEL_SCALE_PARAMETER, LAYER, ROUGHNESS_MAP, ROUGHNESS_PARAMETER,
 };
-use super::phong::{Film, Phong};
+use super::phong::{self, Phong};
 use super::{Material, MaterialResources, Surface};
 use indigo_decl::{Block, Field, Kind, Later, Node, Parameter, Presence, Range, StandIn, codes};
 use indigo_diag::{Diagnostic, Sink};
@@ -116,15 +116,9 @@ pub static BLOCK: Block = Block::new(
 
 /// Whether a coat is rendered over a kind of material.
 pub fn is_rendered_over(coat: &Node, below: &Node) -> bool {
-    let is_measured = || {
-        below.block.declares(NK_DATA) && below.opt_text(NK_DATA).is_some_and(|path| !path.value.is_empty())
-    };
     below.block.name == "diffuse"
-        || (coat.bool("interference") && below.block.name == "phong" && is_measured())
+        || (coat.bool("interference") && below.block.name == "phong" && phong::is_measured(below))
 }
-
-/// The field of a metal's file.
-const NK_DATA: &str = "nk_data";
 
 /// Builds the material of an element. What is below is known to be one that the coat [is rendered over](is_rendered_over): of all
 /// else the scene takes the material below.
@@ -140,16 +134,12 @@ pub fn build(node: &Node, resources: &mut dyn MaterialResources) -> Material {
         }
         Material::Phong(below) => {
             let bump = below.bump;
-            let film = Film {
-                index: Real::from_f64(node.real("ior")),
-                thickness: Real::from_f64(node.real("thickness")),
-            };
-            match below.kind.under(film, Real::from_f64(node.real("fresnel_scale").min(1.0))) {
+            match below.kind.under_film(node) {
                 Some(filmed) => {
                     report_unfit_for_films(node, resources.sink());
                     with_bumps(filmed, bump, node, resources)
                 }
-                // Its file could not be read, which has been reported.
+                // It is no measured metal, over which no coat is rendered.
                 None => grey(node),
             }
         }

@@ -69,11 +69,11 @@ enum Kind {
 
 /// A clear film that is thin enough for light to interfere in it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Film {
+struct Film {
     /// Its index of refraction against vacuum.
-    pub index: Real,
+    index: Real,
     /// m.
-    pub thickness: Real,
+    thickness: Real,
 }
 
 /// How smooth the surface is.
@@ -98,8 +98,7 @@ impl Phong {
     pub fn build(node: &Node, resources: &mut dyn MaterialResources) -> Self {
         let coat = ["ior", "diffuse_albedo_spectrum", "diffuse", "albedo_texture"];
         let disregard = |fields: &[&str]| fields.iter().for_each(|field| node.disregard_field(field));
-        let measured = node.opt_text("nk_data").is_some_and(|path| !path.value.is_empty());
-        let kind = if measured {
+        let kind = if is_measured(node) {
             disregard(&coat);
             disregard(&METAL);
             let [n, k] = resources.complex_index(node, "nk_data");
@@ -143,12 +142,15 @@ impl Phong {
         Self::of(Kind::Coat { eta, ground, body }, gloss, scale)
     }
 
-    /// The same measured metal under a film, which follows its facets and scales what they reflect; `None` if it is not measured.
-    pub(super) fn under(&self, film: Film, fresnel_scale: Real) -> Option<Self> {
+    /// The same measured metal under the film of an element, which follows its facets and scales what they reflect; `None` if it is not
+    /// measured.
+    pub(super) fn under_film(&self, node: &Node) -> Option<Self> {
         let Kind::Measured { n, k, .. } = &self.kind else { return None };
+        let [index, thickness] = ["ior", "thickness"].map(|field| Real::from_f64(node.real(field)));
+        let film = Film { index, thickness };
         let average = ByIndex::new(&[1.0], |_| average_of_metal(n, k, Some(film), 1.0));
         let kind = Kind::Measured { n: n.clone(), k: k.clone(), film: Some(film), average };
-        Some(Self { kind, fresnel_scale: self.fresnel_scale * fresnel_scale, ..self.clone() })
+        Some(Self { kind, fresnel_scale: self.fresnel_scale * scale_of(node), ..self.clone() })
     }
 
     fn of(kind: Kind, gloss: Gloss, fresnel_scale: Real) -> Self {
@@ -222,6 +224,11 @@ impl Phong {
             _ => LaneRows::between(row(low), row(high), mix),
         }
     }
+}
+
+/// Whether an element is of a metal of measured indices.
+pub(super) fn is_measured(node: &Node) -> bool {
+    node.opt_text("nk_data").is_some_and(|path| !path.value.is_empty())
 }
 
 /// What multiplies a reflectance, at most 1.
