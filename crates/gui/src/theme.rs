@@ -23,7 +23,7 @@ pub const CONTROL: f32 = SIDE - 16.0 - NAME - SPACE;
 pub const VALUE: f32 = 64.0;
 /// How far beyond what it scrolls the bar of the panel on the right ends: it is 2 points wide while the pointer is elsewhere,
 /// and stands in the middle of the panel's margin, where it covers no control.
-pub const BAR: f32 = (8.0 + 2.0) / 2.0;
+pub const BAR: f32 = 5.0;
 /// The space between what stands side by side.
 const SPACE: f32 = 8.0;
 

@@ -1,6 +1,6 @@
 //! `coating`: a coat over a diffuse material, or a thin film over a metal.
 //!
-//! Over `diffuse` it is the coat of [`phong`](super::phong) over a ground whose reflectance is told as it is without the coat.
+//! Over `diffuse` it is the coat of [`phong`] over a ground whose reflectance is told as it is without the coat.
 //! What a Lambertian ground of albedo ρ sends up the coat throws back in part, r, again and again, so that under it the ground
 //! shows ρ (1 − r) / (1 − ρ r) (Saunderson 1942, "Calculation of the color of pigmented plastics", equation 5): coats
 //! make colours darker and deeper, and leave white as it is. What the coat absorbs is lost on each of those ways.
