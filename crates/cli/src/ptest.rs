@@ -20,6 +20,10 @@ use std::time::{Duration, Instant};
 /// Samples that a scene is rendered with unless it is told how many: some seconds on one core.
 const SAMPLES: u64 = 4 << 20;
 
+/// How often is looked whether each pixel has a sample, and from then on how far the render is.
+const OFTEN: Duration = Duration::from_millis(1);
+const SELDOM: Duration = Duration::from_millis(100);
+
 /// A figure: its name, its value, and its unit.
 type Figure = (&'static str, String, &'static str);
 
@@ -49,11 +53,19 @@ fn measure(path: &str, arguments: &Arguments, console: &mut Console) -> Result<V
     let start = Instant::now();
     let mut session =
         Session::start(Arc::clone(&scene), &options).map_err(|error| refuse(&error.to_string(), console))?;
-    let first = start.elapsed();
+    let threads_run = start.elapsed();
+    let mut first_pass = None;
     let progress = loop {
-        match session.wait(Duration::from_millis(100)) {
+        let event = session.wait(if first_pass.is_none() { OFTEN } else { SELDOM });
+        let (Event::Progress(now) | Event::Halted(_, now)) = &event;
+        if now.samples >= pixels {
+            first_pass.get_or_insert_with(|| start.elapsed());
+        }
+        match event {
             // Elsewhere than on a terminal it would be a line each time.
-            Event::Progress(progress) if console.is_terminal() => console.progress(&progress),
+            Event::Progress(progress) if console.is_terminal() && first_pass.is_some() => {
+                console.progress(&progress)
+            }
             Event::Progress(_) => {}
             Event::Halted(HaltReason::Failed(message), _) => {
                 console.error(&message);
@@ -83,7 +95,8 @@ fn measure(path: &str, arguments: &Arguments, console: &mut Console) -> Result<V
         ("pixels", pixels.to_string(), ""),
         ("read", seconds_of(read), "s"),
         ("build", seconds_of(load_time.saturating_sub(read)), "s"),
-        ("start", seconds_of(first), "s"),
+        ("start", seconds_of(threads_run), "s"),
+        ("first_pass", seconds_of(first_pass.unwrap_or_default()), "s"),
         ("render", seconds_of(progress.elapsed), "s"),
         ("develop", seconds_of(develop_time), "s"),
         ("samples", progress.samples.to_string(), ""),
@@ -137,7 +150,7 @@ fn technique(scene: &Scene) -> &'static str {
 }
 
 fn seconds_of(time: Duration) -> String {
-    format!("{:.3}", time.as_secs_f64())
+    format!("{:.6}", time.as_secs_f64())
 }
 
 fn hex(bytes: &[u8]) -> String {

@@ -86,14 +86,15 @@ pub fn judged(arguments: &[String]) -> Result<Option<String>, String> {
     let record = root().join(RECORD);
     match task {
         Task::Update(why, dropped) => {
-            let lost = lost(&read(&record)?, &counts, &dropped);
+            let before = read(&record)?;
+            let lost = lost(&before, &counts, &dropped);
             if !lost.is_empty() {
                 return Err(format!(
                     "{} would be lost from the record: --drop KERNEL for each that is no more, or count where there are such kernels",
                     lost.join(", ")
                 ));
             }
-            write(&record, why, &counts).map(|()| None)
+            write(&record, &updated(&before, &counts, why, &compiler()?)).map(|()| None)
         }
         Task::Compare(_) => compare(&read(&record)?, &counts, only.is_none()),
     }
@@ -147,28 +148,43 @@ fn total(text: &str) -> Option<u64> {
     text.lines().rev().find_map(|line| line.strip_prefix("totals:"))?.trim().parse().ok()
 }
 
-/// Kernels by name, and the compiler of the counts.
+/// Kernels by name, the compiler of the counts, and why each is what it is.
 struct Record {
     compiler: String,
     counts: Map<String, Value>,
+    why: Map<String, Value>,
 }
 
 fn read(path: &Path) -> Result<Record, String> {
     let fault = |why: &dyn std::fmt::Display| format!("{}: {why}", path.display());
     let text = std::fs::read_to_string(path).map_err(|error| fault(&error))?;
     let record: Value = serde_json::from_str(&text).map_err(|error| fault(&error))?;
-    let counts =
-        record["instructions"].as_object().cloned().ok_or_else(|| fault(&"holds no instructions"))?;
-    Ok(Record { compiler: record["compiler"].as_str().unwrap_or_default().to_owned(), counts })
+    let of = |key: &str| record[key].as_object().cloned().ok_or_else(|| fault(&format!("holds no {key}")));
+    let compiler = record["compiler"].as_str().unwrap_or_default().to_owned();
+    Ok(Record { compiler, counts: of("instructions")?, why: of("why")? })
 }
 
-fn write(path: &Path, why: &str, counts: &[(String, u64)]) -> Outcome {
-    let counts: Map<String, Value> = counts.iter().map(|(name, n)| (name.clone(), json!(n))).collect();
+/// The record after an update. Of one compiler a kernel within the tolerance keeps its count and its reason, so that many small
+/// steps, none of which is told, do not become a large one.
+fn updated(before: &Record, counts: &[(String, u64)], why: &str, compiler: &str) -> Record {
+    let mut after = Record { compiler: compiler.to_owned(), counts: Map::new(), why: Map::new() };
+    for (name, count) in counts {
+        let then = before.counts.get(name).and_then(Value::as_u64);
+        let is_kept = before.compiler == compiler && verdict(*count, then) == Verdict::Same;
+        let kept = then.filter(|_| is_kept).zip(before.why.get(name).cloned());
+        let (count, why) = kept.unwrap_or_else(|| (*count, json!(why)));
+        after.counts.insert(name.clone(), json!(count));
+        after.why.insert(name.clone(), why);
+    }
+    after
+}
+
+fn write(path: &Path, record: &Record) -> Outcome {
     let record = json!({
         "about": format!("instructions of `cargo xtask counts`, built for {PROCESSOR}"),
-        "compiler": compiler()?,
-        "why": why,
-        "instructions": counts,
+        "compiler": record.compiler,
+        "why": record.why,
+        "instructions": record.counts,
     });
     std::fs::write(path, format!("{record:#}\n")).map_err(|error| format!("{}: {error}", path.display()))?;
     println!("{}", path.display());
@@ -245,11 +261,30 @@ mod tests {
     #[test]
     fn no_kernel_is_lost_by_an_update_unless_it_is_named() {
         let counts = [("a", 1), ("b", 2), ("c", 3)].map(|(name, n)| (name.to_owned(), json!(n)));
-        let record = Record { compiler: String::new(), counts: counts.into_iter().collect() };
+        let record =
+            Record { compiler: String::new(), counts: counts.into_iter().collect(), why: Map::new() };
         let counted = [("a".to_owned(), 1)];
         assert_eq!(lost(&record, &counted, &[]), ["b", "c"]);
         assert_eq!(lost(&record, &counted, &["c"]), ["b"]);
         assert!(can_run("rays_closest"));
+    }
+
+    #[test]
+    fn an_update_rewrites_what_changed_alone() {
+        let of =
+            |pairs: [(&str, Value); 2]| pairs.into_iter().map(|(name, v)| (name.to_owned(), v)).collect();
+        let before = Record {
+            compiler: "now".into(),
+            counts: of([("a", json!(1000)), ("b", json!(1000))]),
+            why: of([("a", json!("of old")), ("b", json!("of old"))]),
+        };
+        let counts = [("a".to_owned(), 1019), ("b".to_owned(), 1030)];
+        let after = updated(&before, &counts, "more work", "now");
+        assert_eq!(after.counts, of([("a", json!(1000)), ("b", json!(1030))]));
+        assert_eq!(after.why, of([("a", json!("of old")), ("b", json!("more work"))]));
+        // Another compiler makes other kernels of all.
+        let after = updated(&before, &counts, "compiler", "later");
+        assert_eq!(after.counts, of([("a", json!(1019)), ("b", json!(1030))]));
     }
 
     #[test]

@@ -14,6 +14,7 @@ mod fuzz;
 mod generate;
 mod here;
 mod media_library;
+mod mistakes;
 mod soak;
 mod stages;
 mod tidy;
@@ -69,6 +70,12 @@ const COMMANDS: &[Command] = &[
         arguments: "[--full] [--only NAME] [...]",
         about: "render scenes whose pictures are known, and write a report with a verdict on each",
         run: validate::run,
+    },
+    Command {
+        name: "mistakes",
+        arguments: "",
+        about: "make mistakes in a copy of the renderer, and see whether `validate` tells: a quarter of an hour",
+        run: mistakes::run,
     },
     Command {
         name: "bench",

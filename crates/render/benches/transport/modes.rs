@@ -16,6 +16,7 @@ pub const MODES: &[Mode] = &[
     mode("bidirectional", [true, false, false]),
     mode("path-metropolis", [false, true, false]),
     mode("bidirectional-metropolis", [true, true, false]),
+    mode("path-hybrid", [false, true, true]),
     mode("bidirectional-hybrid", [true, true, true]),
 ];
 

@@ -9,16 +9,18 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+mod encode;
 mod modes;
 mod pictures;
 mod scenes;
 
 use common::again::replay;
-use common::film;
+use common::{film, scene_with, shapes, text};
 use indigo_scene::Scene;
 use indigo_testkit::sidak;
 use indigo_testkit::zgrid::{BlockGrid, ZGrid};
 use modes::{MODES, Mode};
+use scenes::Written;
 use std::fmt::Write;
 
 /// Probability of any false alarm in the whole grid.
@@ -68,7 +70,8 @@ fn block_means(value: impl Fn(usize) -> f64) -> Vec<f64> {
 
 /// Renders a scene in all modes and compares each with the first.
 #[track_caller]
-fn agree(name: &str, mut scene: Scene) {
+fn agree(name: &str, written: &Written) {
+    let mut scene = scene_with(&written.text, written.files.iter().cloned());
     let mut pictures = vec![];
     let mut reference = None;
     let mut faults = String::new();
@@ -101,72 +104,21 @@ fn agree(name: &str, mut scene: Scene) {
     assert!(faults.is_empty(), "{faults}");
 }
 
-/// A test for each scene: `always` ones in every run, `with_grid` ones by `cargo xtask test --grid` alone.
+/// A test for each scene.
 macro_rules! grid {
     (always: [$($scene:ident,)*] with_grid: [$($more:ident,)*]) => {
         const SCENES: usize = [$(stringify!($scene),)* $(stringify!($more),)*].len();
 
         $(#[test]
         fn $scene() {
-            agree(stringify!($scene), scenes::$scene());
+            agree(stringify!($scene), &scenes::$scene());
         })*
         $(#[test]
         #[ignore = "cargo xtask test --grid"]
         fn $more() {
-            agree(stringify!($more), scenes::$more());
+            agree(stringify!($more), &scenes::$more());
         })*
     };
 }
 
-grid! {
-    always: [
-        small_light,
-        environment_and_lamp,
-        all_lights_together,
-        portal_lit_room,
-        thin_lens_out_of_focus,
-        orthographic_camera,
-        spherical_camera,
-        motion,
-        moving_media,
-        lamps_out_of_focus,
-        lamp_deflected_straight,
-        coloured_walls_and_lamps,
-        invisible_surfaces,
-        light_through_a_sheet,
-        glass_ball_with_caustic,
-        scattering_glass,
-        dispersive_prism,
-        bump_mapped_walls,
-        light_behind_frosted_glass,
-    ]
-    with_grid: [
-        diffuse_box,
-        many_lights,
-        environment_only,
-        environment_map,
-        map_through_portals,
-        rectangle_lamp_beside_a_hazy_sky,
-        photometric_lamp,
-        sun_and_sky,
-        sun_in_space,
-        two_sided_photometric_lamp,
-        textured_lamp,
-        blades_out_of_focus,
-        image_out_of_focus,
-        deflected_rays,
-        deflected_by_dust,
-        spot_out_of_focus_through_a_portal,
-        lamp_out_of_focus_in_fog,
-        smoothed_normals,
-        single_scattering_only,
-        mirror_seen_through_glass,
-        coloured_absorbing_medium,
-        scattering_medium,
-        camera_inside_a_medium,
-        lamp_inside_a_medium,
-        nested_glass_and_liquid,
-        glossy_exchange,
-        blended_surfaces,
-    ]
-}
+scenes::for_all!(grid);

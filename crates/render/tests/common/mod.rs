@@ -38,7 +38,7 @@ pub fn scene(text: &str) -> Scene {
 }
 
 /// The scene of a text that names other files.
-pub fn scene_with<const N: usize>(text: &str, files: [(&str, Vec<u8>); N]) -> Scene {
+pub fn scene_with<'a>(text: &str, files: impl IntoIterator<Item = (&'a str, Vec<u8>)>) -> Scene {
     let mut files: HashMap<String, Vec<u8>> = files.into_iter().map(|(n, b)| (n.to_owned(), b)).collect();
     files.insert(again::SCENE.to_owned(), text.as_bytes().to_vec());
     let files = Files(files);

@@ -17,7 +17,7 @@ pub(super) struct Nodes<const N: usize> {
 
 /// Every nanometre.
 pub(super) static FINE: Nodes<118> = Nodes::new(1);
-/// Every fifth nanometre: for tables of many fits.
+/// Every third nanometre: for tables of many fits.
 pub(super) static COARSE: Nodes<40> = Nodes::new(3);
 
 impl<const N: usize> Nodes<N> {

@@ -20,23 +20,23 @@ const SAMPLES: u32 = 32;
 const QUICK_DEMAND: f64 = 1e-1;
 /// In the full form, where Metropolis sampling walks quickly, and where slowly.
 const FULL_DEMAND: [f64; 2] = [2e-2, 4e-2];
-/// How many times the samples the full form takes: with four times the renders noise is 0.3 of the quick form's.
-const FULL_TIMES: u32 = 3;
+/// How many times the samples the full form takes: with four times the renders noise is a quarter of the quick form's.
+const FULL_TIMES: u32 = 2;
 /// Share of its light that half of the blocks must show, in the quick form and in the full one: Metropolis sampling gathers little
 /// in dark corners.
 const BLOCKS: [f64; 2] = [0.5, 0.2];
 /// Scenes in which all ways have so little noise that the full form can show 2 %.
 const QUIET: &[&str] = &["bump maps", "smooth glass", "thin lens", "lamps", "environment map"];
-/// The scenes beside Mitsuba that are rendered by all ways in the quick form, too.
-const QUICK: &[&str] =
+/// The scenes beside Mitsuba that are rendered by all ways, too.
+const SHARED: &[&str] =
     &["coloured box", "smooth glass", "fog, Henyey and Greenstein", "thin lens", "lamps", "environment map"];
 
 /// All of them.
 pub fn all() -> Vec<Check> {
-    let shared = scenes::all().into_iter().map(|Entry { name, about, stage, .. }| {
+    let shared = scenes::all().into_iter().filter(|entry| SHARED.contains(&entry.name));
+    let shared = shared.map(|Entry { name, about, stage, .. }| {
         let mut check = by_all_ways(name, about, stage.text());
         check.files = stage.files();
-        check.full_only = !QUICK.contains(&name);
         check
     });
     [vec![bumps(), frosted_pane(), prism()], shared.collect()].concat()
@@ -123,7 +123,7 @@ fn frosted_pane() -> Check {
     // Metropolis sampling walks slowly here: too slowly for the samples of the others.
     let check = by_all_ways("frosted pane", "All light goes through a rough pane of coloured glass.", scene);
     let mut check = effort(check, 2 * SAMPLES);
-    check.longer = vec![(Renderer::PathMetropolis, 6), (Renderer::PathHybrid, 3)];
+    check.longer = vec![(Renderer::PathMetropolis, 6), (Renderer::PathHybrid, 4)];
     check
 }
 

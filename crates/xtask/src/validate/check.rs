@@ -210,7 +210,7 @@ impl Check {
             renderers: THREE.to_vec(),
             rows: vec![],
             longer: vec![],
-            quick: Demand { samples: 256, resolution: 5e-3, blocks: 0.2 },
+            quick: Demand { samples: 128, resolution: 5e-3, blocks: 0.2 },
             full: Demand { samples: 256, resolution: 5e-3, blocks: 0.2 },
             screen: None,
             is_flat: false,
@@ -248,6 +248,12 @@ impl Check {
     pub fn effort(self, samples: u32, resolution: f64) -> Self {
         let of = |demand: Demand| Demand { samples, resolution, ..demand };
         Self { quick: of(self.quick), full: of(self.full), ..self }
+    }
+
+    /// With fewer samples in the quick form, where they show enough.
+    #[must_use]
+    pub fn quickly(self, samples: u32) -> Self {
+        Self { quick: Demand { samples, ..self.quick }, ..self }
     }
 
     /// With so many times the samples for one of those who render it.

@@ -1,7 +1,6 @@
 //! Squares on which pictures hang.
 
-use exr::prelude::{Image, SpecificChannels, WritableImage};
-
+use super::encode;
 use super::shapes::{Point, add, cross};
 
 /// Corners of a square about a middle that looks along an axis: lower left, lower right, upper right and upper left, seen from its
@@ -30,12 +29,5 @@ pub fn mesh(name: &str, material: &str, corners: [Point; 4], times: f64) -> Stri
 
 /// A grey EXR file of columns and rows, whose values are given by column and by row from the top.
 pub fn picture([width, height]: [usize; 2], value: impl Fn(usize, usize) -> f32 + Sync) -> Vec<u8> {
-    let pixel = |at: exr::math::Vec2<usize>| {
-        let value = value(at.x(), at.y());
-        (value, value, value)
-    };
-    let image = Image::from_channels((width, height), SpecificChannels::rgb(pixel));
-    let mut bytes = std::io::Cursor::new(vec![]);
-    image.write().to_buffered(&mut bytes).expect("memory takes every byte");
-    bytes.into_inner()
+    encode::rgb([width, height], |i| [value(i % width, i / width); 3])
 }

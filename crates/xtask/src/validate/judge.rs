@@ -7,6 +7,9 @@ use super::statistics::{Comparison, Estimate, quantile, sidak};
 
 /// Probability that any comparison of a run fails although nothing is wrong.
 pub const FAMILY: f64 = 1e-3;
+/// The p-value of the least deviation that counts as seen: about the threshold of a thousand comparisons, but one number for every
+/// run, so that how finely a picture is rendered does not hang on how many others there are.
+const SEEN: f64 = 1e-6;
 /// Relative difference that sums of single-precision numbers may make, and their storage in a file.
 const ROUNDING: f64 = 1e-5;
 /// Blocks along a side of a picture.
@@ -145,7 +148,7 @@ impl Judge<'_> {
         let Beside { measured, expected, comparison, allowance } =
             Beside::of(measured, expected, uncertainty, is_bound);
         // What is granted is not noticed.
-        let noise = quantile(self.threshold, comparison.freedom) * comparison.error;
+        let noise = quantile(SEEN, comparison.freedom) * comparison.error;
         let verdict = Verdict {
             renderer,
             what: row.what.clone(),
@@ -217,7 +220,7 @@ impl Judge<'_> {
             measured,
             comparison,
             allowance,
-            resolution: errors[tests / 2] * quantile(sidak(self.threshold, tests), comparison.freedom),
+            resolution: errors[tests / 2] * quantile(sidak(SEEN, tests), comparison.freedom),
             demand: self.demand.blocks,
             threshold: self.threshold,
             failure: None,

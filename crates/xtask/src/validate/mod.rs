@@ -8,6 +8,8 @@ pub mod check;
 pub mod codes;
 pub mod console;
 pub mod cross;
+pub mod encode;
+pub mod grid;
 pub mod hung;
 pub mod images;
 pub mod judge;
@@ -95,7 +97,7 @@ impl Options {
 pub fn run(arguments: &[String]) -> Outcome {
     let options = Options::parse(arguments)?;
     let (start, date) = (Instant::now(), here::date());
-    let all = [oracles::all(), agreement::all(), cross::all()].concat();
+    let all = [oracles::all(), agreement::all(), grid::all(), cross::all()].concat();
     let left_out = LeftOut::count(all.iter().filter_map(|check| options.leaves_out(check)));
     let checks: Vec<Check> = all.into_iter().filter(|check| options.leaves_out(check).is_none()).collect();
     if checks.is_empty() {
@@ -164,7 +166,7 @@ mod tests {
 
     #[test]
     fn every_check_has_a_name_of_its_own_and_expects_something() {
-        let all = [oracles::all(), agreement::all(), cross::all()].concat();
+        let all = [oracles::all(), agreement::all(), grid::all(), cross::all()].concat();
         let mut slugs: Vec<String> = all.iter().map(Check::slug).collect();
         slugs.sort();
         let shared: Vec<_> = slugs.windows(2).filter(|pair| pair[0] == pair[1]).collect();
@@ -199,7 +201,7 @@ mod tests {
     fn what_is_left_out_is_counted_by_its_reason() {
         let words = |list: &[&str]| list.iter().map(|word| (*word).to_owned()).collect::<Vec<_>>();
         let options = Options::parse(&words(&["--no-mitsuba", "--only", "glass"])).expect("it is right");
-        let all = [oracles::all(), agreement::all(), cross::all()].concat();
+        let all = [oracles::all(), agreement::all(), grid::all(), cross::all()].concat();
         let out = LeftOut::count(all.iter().filter_map(|check| options.leaves_out(check)));
         let kept = all.iter().filter(|check| options.leaves_out(check).is_none()).count();
         assert_eq!(out.checks() + kept, all.len());

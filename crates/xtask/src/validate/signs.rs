@@ -1,11 +1,11 @@
 //! Deviations of many scenes taken together, each with its sign: what lies a little on one side everywhere, and in no scene by more
 //! than its noise, is found by the sum alone.
 
-use super::agreement;
 use super::check::{Check, Demand, Form, Renderer};
 use super::judge::Verdict;
 use super::report::Checked;
 use super::statistics::{Comparison, Estimate, quantile};
+use super::{agreement, grid};
 
 /// Degrees of freedom at which Student's t is the normal distribution to all digits that count.
 const NORMAL: usize = 10_000_000;
@@ -22,7 +22,7 @@ pub fn ways(checks: &[Check]) -> Vec<Renderer> {
 }
 
 fn is_summed(check: &Check) -> bool {
-    check.group == agreement::GROUP
+    [agreement::GROUP, grid::GROUP].contains(&check.group)
 }
 
 /// One more check, of the sums over the scenes that are rendered by all ways.

@@ -1,16 +1,13 @@
 //! Lenses out of focus, apertures of every kind, and what they diffract; lamps that shine straight into them.
 
-use super::super::common::scene_with;
-use super::super::common::shapes::{mesh_light, model};
-use super::super::common::text::{background, camera, diffuse, null, scene_file, uniform};
+use super::super::shapes::{mesh_light, model};
+use super::super::text::{background, camera, diffuse, null, uniform};
 use super::lights::{MAP, PROFILE, picture, square_lamp};
-use super::{block, build, common, lamp, room, wall};
-use indigo_imaging::{LinearImage, Metadata, exr, png};
-use indigo_scene::Scene;
+use super::{Written, block, build, common, encode, lamp, room, wall, written};
 
 /// A lens as wide as the room, focused before it, with natural vignetting, shifted by a seventh of the sensor to the right
 /// and a tenth down.
-pub fn thin_lens_out_of_focus() -> Scene {
+pub fn thin_lens_out_of_focus() -> Written {
     let shift = "<lens_shift_right_distance>0.006</lens_shift_right_distance><lens_shift_up_distance>-0.0042</lens_shift_up_distance>";
     let lens = camera([0.0, -3.6, 0.0], [0.0, 1.0, 0.0], 0.42, shift)
         .replace("<aperture_radius>1e-5</aperture_radius>", "<aperture_radius>0.4</aperture_radius>")
@@ -19,7 +16,7 @@ pub fn thin_lens_out_of_focus() -> Scene {
 }
 
 /// Parallel rays that meet lamps, the room, and its environment through it.
-pub fn orthographic_camera() -> Scene {
+pub fn orthographic_camera() -> Written {
     let parallel =
         "<camera_type>orthographic</camera_type><lens_shift_up_distance>0.2</lens_shift_up_distance>";
     let lens = camera([0.0, -3.6, 0.0], [0.0, 1.0, 0.0], 22.0, parallel);
@@ -32,14 +29,14 @@ pub fn orthographic_camera() -> Scene {
 }
 
 /// All directions, from amid the room; the lamp lies over the camera, where columns meet.
-pub fn spherical_camera() -> Scene {
+pub fn spherical_camera() -> Written {
     let lens = camera([0.1, -0.4, 0.1], [0.3, 1.0, 0.0], 1.0, "<camera_type>spherical</camera_type>");
     let sky = vec![background(&uniform(1e3))];
     build(&[common(lens), room(["white"; 4]), block("grey"), lamp(0.3, 1e5), sky])
 }
 
 /// Three blades, whose picture of what is out of focus no mode may turn over or stretch.
-pub fn blades_out_of_focus() -> Scene {
+pub fn blades_out_of_focus() -> Written {
     let blades = "<aperture_shape><generated><num_blades>3</num_blades><start_angle>0.2</start_angle><blade_offset>0.25</blade_offset><blade_curvature_radius>0.7</blade_curvature_radius></generated></aperture_shape>";
     let lens = camera([0.0, -3.6, 0.0], [0.0, 1.0, 0.0], 0.42, blades)
         .replace("<aperture_radius>1e-5</aperture_radius>", "<aperture_radius>0.4</aperture_radius>")
@@ -52,11 +49,11 @@ fn grey_picture(light: impl Fn(f64, f64) -> f64) -> Vec<u8> {
     let place = |i: usize| (i as f64 + 0.5) / 512.0;
     let codes: Vec<u8> =
         (0..512 * 512).map(|i| (255.0 * light(place(i % 512), place(i / 512))).round() as u8).collect();
-    png::encode_grey(512, &codes).expect("a picture")
+    encode::grey(512, &codes)
 }
 
 /// An aperture like no mirror image of its own, grey in part.
-pub fn image_out_of_focus() -> Scene {
+pub fn image_out_of_focus() -> Written {
     let key = grey_picture(|x, y| match (x < 0.3, y < 0.4) {
         (true, _) => 1.0,
         (false, true) => 0.25 + 0.5 * x,
@@ -71,21 +68,21 @@ pub fn image_out_of_focus() -> Scene {
     .replace("<aperture_radius>1e-5</aperture_radius>", "<aperture_radius>0.4</aperture_radius>")
     .replace("<focus_distance>1</focus_distance>", "<focus_distance>1.5</focus_distance>");
     let parts = [common(lens), room(["white"; 4]), block("grey"), lamp(0.3, 1e5)].concat();
-    scene_with(&scene_file(&parts), [("key.png", key)])
+    written(&parts, [("key.png", key)])
 }
 
 /// A pinhole that spreads light over pixels, more of it the longer its wavelength.
-pub fn deflected_rays() -> Scene {
+pub fn deflected_rays() -> Written {
     deflected("", [])
 }
 
 /// The same behind scratches, which spread it to the sides and aslant.
-pub fn deflected_by_dust() -> Scene {
+pub fn deflected_by_dust() -> Written {
     let dust = grey_picture(|x, y| if (x * 9.0 + y * 4.0).fract() < 0.3 { 0.0 } else { 0.9 });
     deflected("<obstacle_map>dust.png</obstacle_map>", [("dust.png", dust)])
 }
 
-fn deflected<const N: usize>(more: &str, files: [(&str, Vec<u8>); N]) -> Scene {
+fn deflected<const N: usize>(more: &str, files: [(&'static str, Vec<u8>); N]) -> Written {
     let [red, blue] =
         ["0.8 0.1 0.1", "0.1 0.1 0.8"].map(|c| format!("<rgb><rgb>{c}</rgb><gamma>2.2</gamma></rgb>"));
     let paint = vec![diffuse("red", &red), diffuse("blue", &blue)];
@@ -97,23 +94,22 @@ fn deflected<const N: usize>(more: &str, files: [(&str, Vec<u8>); N]) -> Scene {
 fn deflecting<const N: usize>(
     change: impl Fn(String) -> String,
     more: &str,
-    files: [(&str, Vec<u8>); N],
+    files: [(&'static str, Vec<u8>); N],
     parts: Vec<String>,
-) -> Scene {
+) -> Written {
     let mut all = common(change(camera([0.0, -3.6, 0.0], [0.0, 1.0, 0.0], 0.42, more)));
     all[0] = all[0].replace(
         "<aperture_diffraction>false</aperture_diffraction>",
         "<aperture_diffraction>true</aperture_diffraction><post_process_diffraction>false</post_process_diffraction>",
     );
     all.extend(parts);
-    scene_with(&scene_file(&all), files)
+    written(&all, files)
 }
 
 /// A map in latitude and longitude that is dim but for a texel of 3°, at azimuth 4° and elevation 7° before the camera.
 fn map_with_a_spot() -> (String, Vec<u8>) {
-    let texel = |i: usize| if i == 29 * 128 + 65 { [4e5, 2e5, 1e5, 1.0] } else { [1e3, 2e3, 3e3, 1.0] };
-    let image = LinearImage { width: 128, height: 64, pixels: (0..128 * 64).map(texel).collect() };
-    let bytes = exr::encode(&image, &Metadata::default()).expect("a picture");
+    let texel = |i: usize| if i == 29 * 128 + 65 { [4e5, 2e5, 1e5] } else { [1e3, 2e3, 3e3] };
+    let bytes = encode::rgb([128, 64], texel);
     let light = "<env_map><latlong><path>spot.exr</path><gain>1</gain></latlong></env_map>";
     (light.to_owned(), bytes)
 }
@@ -134,7 +130,7 @@ fn without_back() -> Vec<String> {
 
 /// Lamps of each kind and a spot of the sky that shine straight into a lens out of focus, one of them through a pane that
 /// is not there, and partly behind a block.
-pub fn lamps_out_of_focus() -> Scene {
+pub fn lamps_out_of_focus() -> Written {
     let (map, spot) = map_with_a_spot();
     let file = include_str!("../../../../../testscenes/ies/reject_vertical_0_180.ies");
     let dim = file.replacen("1 -1 1 ", "1 -1 0.02 ", 1);
@@ -156,11 +152,11 @@ pub fn lamps_out_of_focus() -> Scene {
         vec![map],
     ];
     let files = [("spot.exr", spot), ("lamp.ies", dim.into_bytes()), ("lamp.bmp", picture())];
-    scene_with(&scene_file(&parts.concat()), files)
+    written(&parts.concat(), files)
 }
 
 /// A spot of the sky, seen out of focus through a portal.
-pub fn spot_out_of_focus_through_a_portal() -> Scene {
+pub fn spot_out_of_focus_through_a_portal() -> Written {
     let (map, spot) = map_with_a_spot();
     let portal = vec![
         wall([0.0, -1.0, 0.0], 1.0, 1.0).text("opening", "white"),
@@ -168,11 +164,11 @@ pub fn spot_out_of_focus_through_a_portal() -> Scene {
             .to_owned(),
     ];
     let parts = [common(wide_lens()), without_back(), block("grey"), vec![map], portal];
-    scene_with(&scene_file(&parts.concat()), [("spot.exr", spot)])
+    written(&parts.concat(), [("spot.exr", spot)])
 }
 
 /// A lamp that shines straight into a pinhole of three blades, so small that they spread its light over the picture.
-pub fn lamp_deflected_straight() -> Scene {
+pub fn lamp_deflected_straight() -> Written {
     let blades = "<aperture_shape><generated><num_blades>3</num_blades><start_angle>0.2</start_angle><blade_offset>0.25</blade_offset><blade_curvature_radius>50</blade_curvature_radius></generated></aperture_shape>";
     let lamp = vec![
         wall([0.0, -1.0, 0.0], -0.6, 0.3).text("lamp", "black"),
@@ -184,7 +180,7 @@ pub fn lamp_deflected_straight() -> Scene {
 }
 
 /// A lamp out of focus in thin fog that fills all, so that wavelengths have densities of their own.
-pub fn lamp_out_of_focus_in_fog() -> Scene {
+pub fn lamp_out_of_focus_in_fog() -> Written {
     let lamp = vec![
         wall([0.0, -1.0, 0.0], -0.6, 0.05).text("lamp", "black"),
         mesh_light("lamp", &uniform(2e6), [-0.2, 0.0, 0.2], 1.0, ""),

@@ -1,9 +1,6 @@
 //! Every kind of light that is not the same everywhere or in all directions.
 
-use super::super::common::scene_with;
-use super::{background, block, build, common, model, room, scene_file, uniform, view, wall};
-use indigo_imaging::{LinearImage, Metadata, exr};
-use indigo_scene::Scene;
+use super::{Written, background, block, build, common, encode, model, room, uniform, view, wall, written};
 
 /// A room that is lit from the camera's side and, if `roofless`, from above.
 fn open_room(is_roofless: bool) -> Vec<String> {
@@ -20,7 +17,7 @@ fn skylight(sundir: &str) -> Vec<String> {
     vec![format!("<skylight><sundir>{sundir}</sundir><turbidity>3</turbidity></skylight>")]
 }
 
-pub fn sun_and_sky() -> Scene {
+pub fn sun_and_sky() -> Written {
     build(&[common(view()), open_room(false), block("grey"), skylight("0.3 -1 0.7")])
 }
 
@@ -38,14 +35,14 @@ fn map() -> (String, Vec<u8>) {
 }
 
 /// The map, and a background that adds to it.
-pub fn environment_map() -> Scene {
+pub fn environment_map() -> Written {
     let (map, bytes) = map();
     let parts = [common(view()), open_room(true), block("white"), vec![map, background(&uniform(5e2))]];
-    scene_with(&scene_file(&parts.concat()), [("map.float", bytes)])
+    written(&parts.concat(), [("map.float", bytes)])
 }
 
 /// The sun without air: nothing but a disc, which shines into the corner between floor and wall.
-pub fn sun_in_space() -> Scene {
+pub fn sun_in_space() -> Written {
     let sun = "<skylight><sundir>0.3 -1 0.7</sundir><turbidity>3</turbidity><extra_atmospheric>true</extra_atmospheric></skylight>";
     build(&[common(view()), open_room(false), block("grey"), vec![sun.to_owned()]])
 }
@@ -76,20 +73,20 @@ pub(super) fn square_lamp(name: &str, middle: [f64; 3], more: &str) -> Vec<Strin
 pub(super) const PROFILE: &str = "<ies_profile><path>lamp.ies</path></ies_profile>";
 
 /// Intensity that depends on both angles, down to none along the ceiling.
-pub fn photometric_lamp() -> Scene {
+pub fn photometric_lamp() -> Written {
     lit_by_profile(0.95, include_bytes!("../../../../../testscenes/ies/quadrant_bat.ies"))
 }
 
 /// One that shines upwards, too.
-pub fn two_sided_photometric_lamp() -> Scene {
+pub fn two_sided_photometric_lamp() -> Written {
     lit_by_profile(0.5, include_bytes!("../../../../../testscenes/ies/reject_vertical_0_180.ies"))
 }
 
 /// A room with a photometric lamp at some height.
-fn lit_by_profile(z: f64, file: &[u8]) -> Scene {
+fn lit_by_profile(z: f64, file: &[u8]) -> Written {
     let lamp = square_lamp("lamp", [0.0, 0.0, z], PROFILE);
     let parts = [common(view()), room(["white"; 4]), block("grey"), lamp];
-    scene_with(&scene_file(&parts.concat()), [("lamp.ies", file.to_vec())])
+    written(&parts.concat(), [("lamp.ies", file.to_vec())])
 }
 
 pub(super) const MAP: &str = "<texture><path>lamp.bmp</path><exponent>1</exponent><b>3</b></texture>";
@@ -109,15 +106,15 @@ pub(super) fn picture() -> Vec<u8> {
 }
 
 /// A lamp with a picture.
-pub fn textured_lamp() -> Scene {
+pub fn textured_lamp() -> Written {
     let lamp = square_lamp("lamp", [0.0, 0.0, 0.95], MAP);
     let parts = [common(view()), room(["white"; 4]), block("white"), lamp];
-    scene_with(&scene_file(&parts.concat()), [("lamp.bmp", picture())])
+    written(&parts.concat(), [("lamp.bmp", picture())])
 }
 
 /// A low sun with its sky, a map, a lamp with a picture and a photometric one, which give the room about as much light
 /// each: every kind in a single scene, so that each run has them.
-pub fn all_lights_together() -> Scene {
+pub fn all_lights_together() -> Written {
     let file = include_str!("../../../../../testscenes/ies/quadrant_bat.ies");
     // Ten times as bright.
     let bright = file.replacen("1 -1 1 ", "1 -1 10 ", 1);
@@ -133,7 +130,7 @@ pub fn all_lights_together() -> Scene {
         skylight("0.3 -1 0.05"),
     ];
     let files = [("map.float", texels), ("lamp.ies", bright.into_bytes()), ("lamp.bmp", picture())];
-    scene_with(&scene_file(&parts.concat()), files)
+    written(&parts.concat(), files)
 }
 
 /// Portals over both openings of a roofless room.
@@ -150,27 +147,26 @@ fn portals() -> Vec<String> {
 }
 
 /// A room that light enters from the front and through a gap round its ceiling, by a portal over each.
-pub fn portal_lit_room() -> Scene {
+pub fn portal_lit_room() -> Written {
     build(&[common(view()), open_room(true), block("white"), skylight("-0.4 -0.6 1"), portals()])
 }
 
 /// The same room under a map in latitude and longitude, which has a bright texel before the room and one above it.
-pub fn map_through_portals() -> Scene {
-    let texel = |i: u8| match i {
+pub fn map_through_portals() -> Written {
+    let texel = |i: usize| match i {
         // Left of -y and 34° high, and 79° above +x.
-        33 => [2e5, 1e5, 3e4, 1.0],
-        12 => [2e4, 1e5, 3e5, 1.0],
-        _ => [1e3, 2e2 * f32::from(i % 16), 2e3, 1.0],
+        33 => [2e5, 1e5, 3e4],
+        12 => [2e4, 1e5, 3e5],
+        _ => [1e3, 2e2 * (i % 16) as f32, 2e3],
     };
-    let image = LinearImage { width: 16, height: 8, pixels: (0..128).map(texel).collect() };
-    let map = exr::encode(&image, &Metadata::default()).expect("a picture");
+    let map = encode::rgb([16, 8], texel);
     let light = "<env_map><latlong><path>map.exr</path><gain>1.5</gain></latlong></env_map>".to_owned();
     let parts = [common(view()), open_room(true), block("white"), vec![light], portals()];
-    scene_with(&scene_file(&parts.concat()), [("map.exr", map)])
+    written(&parts.concat(), [("map.exr", map)])
 }
 
 /// A long lamp of so many lumens, and daylight after Preetham from the front, which gives less light.
-pub fn rectangle_lamp_beside_a_hazy_sky() -> Scene {
+pub fn rectangle_lamp_beside_a_hazy_sky() -> Written {
     let lamp = "<rectanglelight><pos>0.3 0.2 0.9</pos><width>1.2</width><height>0.2</height><spectrum><blackbody>\
          <temperature>2800</temperature><gain>1</gain></blackbody></spectrum><efficacy_scale><power_drawn>1000</power_drawn>\
          <overall_luminous_efficacy>150</overall_luminous_efficacy></efficacy_scale></rectanglelight>";

@@ -1,10 +1,7 @@
 //! Scenes of glossy, rough, bumpy and blended surfaces.
 
-use super::super::common::scene_with;
-use super::super::common::text::{basic, medium, scene_file, uniform};
-use super::{add, block, build, common, cross, lamp, model, room, view};
-use indigo_imaging::{LinearImage, Metadata, exr};
-use indigo_scene::Scene;
+use super::super::text::{basic, medium, uniform};
+use super::{Written, add, block, build, common, cross, encode, lamp, model, room, view, written};
 
 fn material(name: &str, kind: &str) -> String {
     format!("<material><name>{name}</name>{kind}</material>")
@@ -31,7 +28,7 @@ fn metal(name: &str, exponent: u32, rgb: &str) -> String {
 }
 
 /// Light that goes to and fro between metals and coats, so that caustics and glossy chains are most of it.
-pub fn glossy_exchange() -> Scene {
+pub fn glossy_exchange() -> Written {
     let parts = vec![
         coat("floor", 300, 0.3),
         metal("copper", 60, "0.9 0.6 0.4"),
@@ -73,14 +70,12 @@ fn mapped_wall(towards: [f64; 3], name: &str, material: &str, times: f64) -> Vec
 
 /// Hills of up to 45 degrees, on matt, coated and metal walls: shading normals lean far from the walls' own, so that
 /// light arriving and light leaving are weighed differently.
-pub fn bump_mapped_walls() -> Scene {
+pub fn bump_mapped_walls() -> Written {
     let height = |i: usize| {
         let [x, y] = [i % 16, i / 16].map(|c| (std::f64::consts::TAU * c as f64 / 16.0).sin());
         (0.5 + 0.25 * (x + y)) as f32
     };
-    let pixels = (0..256).map(|i| [height(i), height(i), height(i), 1.0]).collect();
-    let hills =
-        exr::encode(&LinearImage { width: 16, height: 16, pixels }, &Metadata::default()).expect("a picture");
+    let hills = encode::rgb([16, 16], |i| [height(i); 3]);
     let bump = "<bump_map><path>hills.exr</path><exponent>1</exponent><b>0.3</b></bump_map>";
     let bumpy = |text: String, end: &str| text.replace(end, &format!("{bump}{end}"));
     let matt = material(
@@ -102,11 +97,11 @@ pub fn bump_mapped_walls() -> Scene {
         block("grey"),
         lamp(0.3, 1e5),
     ];
-    scene_with(&scene_file(&parts.concat()), [("hills.exr", hills)])
+    written(&parts.concat(), [("hills.exr", hills)])
 }
 
 /// All light goes through a rough pane of coloured glass below the lamp.
-pub fn light_behind_frosted_glass() -> Scene {
+pub fn light_behind_frosted_glass() -> Written {
     let frosted = "<glossy_transparent><internal_medium_name>glass</internal_medium_name><exponent>100</exponent></glossy_transparent>";
     let glass = "<rgb><rgb>1 4 9</rgb><gamma>1</gamma></rgb>";
     let mut pane =
@@ -122,11 +117,9 @@ pub fn light_behind_frosted_glass() -> Scene {
 }
 
 /// Surfaces of two kinds at each point: by a factor, and by a map with soft borders.
-pub fn blended_surfaces() -> Scene {
+pub fn blended_surfaces() -> Written {
     let share = |i: usize| if (i % 4 + i / 4).is_multiple_of(2) { 1.0 } else { 0.0 };
-    let pixels = (0..16).map(|i| [share(i), share(i), share(i), 1.0]).collect();
-    let chequers =
-        exr::encode(&LinearImage { width: 4, height: 4, pixels }, &Metadata::default()).expect("a picture");
+    let chequers = encode::rgb([4, 4], |i| [share(i); 3]);
     let blend =
         |how: &str, a: &str, b: &str| format!("<blend>{how}<a_name>{a}</a_name><b_name>{b}</b_name></blend>");
     let half = "<blend_factor>0.5</blend_factor>";
@@ -149,5 +142,5 @@ pub fn blended_surfaces() -> Scene {
         block("mixed"),
         lamp(0.3, 1e5),
     ];
-    scene_with(&scene_file(&parts.concat()), [("chequers.exr", chequers)])
+    written(&parts.concat(), [("chequers.exr", chequers)])
 }

@@ -1,9 +1,8 @@
 //! Scenes with media: glass, liquids and fog.
 
-use super::super::common::shapes::{Mesh, model};
-use super::super::common::text::{basic, henyey_greenstein, medium, scattering, specular, sphere, uniform};
-use super::{background, build, common, lamp, room, view, wall};
-use indigo_scene::Scene;
+use super::super::shapes::{Mesh, model};
+use super::super::text::{basic, henyey_greenstein, medium, scattering, specular, sphere, uniform};
+use super::{Written, background, build, common, lamp, room, view, wall};
 
 fn rgb(triple: &str) -> String {
     format!("<rgb><rgb>{triple}</rgb><gamma>1</gamma></rgb>")
@@ -25,17 +24,17 @@ pub(super) fn cuboid(name: &str, material: &str, half: [f64; 3], at: [f64; 3]) -
     vec![mesh.text(name, material), model(name)]
 }
 
-fn in_room(parts: Vec<String>) -> Scene {
+fn in_room(parts: Vec<String>) -> Written {
     build(&[common(view()), room(["white"; 4]), parts, lamp(0.4, 1e5)])
 }
 
 /// Light is focused on the floor, by paths that draw no light.
-pub fn glass_ball_with_caustic() -> Scene {
+pub fn glass_ball_with_caustic() -> Written {
     in_room(vec![clear("g", 10, 1.5), specular("glass", "g"), sphere([0.1, 0.0, -0.4], 0.45, "glass")])
 }
 
 /// A mirror, not a perfect one, on the right wall behind a plate of glass.
-pub fn mirror_seen_through_glass() -> Scene {
+pub fn mirror_seen_through_glass() -> Written {
     let mirror = specular("mirror", "metal").replace("<transparent>true", "<transparent>false");
     let mut parts = vec![clear("metal", 10, 12.0), mirror, clear("g", 11, 1.5), specular("glass", "g")];
     parts.extend([wall([-1.0, 0.0, 0.0], 0.9, 0.7).text("mirror", "mirror"), model("mirror")]);
@@ -44,7 +43,7 @@ pub fn mirror_seen_through_glass() -> Scene {
 }
 
 /// Colours that deepen with the way through them; no surface is seen.
-pub fn coloured_absorbing_medium() -> Scene {
+pub fn coloured_absorbing_medium() -> Written {
     let mut parts = vec![
         medium("red", 10, &basic(1.0, &rgb("0.2 3 6"), "")),
         medium("blue", 11, &basic(1.0, &rgb("8 2 0.1"), "")),
@@ -57,7 +56,7 @@ pub fn coloured_absorbing_medium() -> Scene {
 }
 
 /// A ball of coloured fog.
-pub fn scattering_medium() -> Scene {
+pub fn scattering_medium() -> Written {
     in_room(vec![
         fog("f", &rgb("0.1 0.5 1"), &rgb("1 3 8"), &henyey_greenstein(0.6)),
         specular("fog", "f"),
@@ -66,7 +65,7 @@ pub fn scattering_medium() -> Scene {
 }
 
 /// Behind glass, light reaches the scattering inside only by refraction.
-pub fn scattering_glass() -> Scene {
+pub fn scattering_glass() -> Written {
     let milky = basic(1.4, &rgb("0.1 0.2 1"), &scattering(&rgb("6 4 3"), "<uniform/>"));
     let ball = sphere([0.1, 0.0, -0.3], 0.5, "glass");
     in_room(vec![medium("m", 10, &milky), specular("glass", "m"), ball, background(&uniform(2e3))])
@@ -80,20 +79,20 @@ pub(super) fn thin_fog_everywhere() -> Vec<String> {
 }
 
 /// The camera, the room and its lamp are in fog.
-pub fn camera_inside_a_medium() -> Scene {
+pub fn camera_inside_a_medium() -> Written {
     let ball = [clear("g", 20, 1.5), specular("glass", "g"), sphere([0.2, 0.2, -0.5], 0.3, "glass")];
     in_room([thin_fog_everywhere(), ball.to_vec()].concat())
 }
 
 /// A lamp that fills a room through a ball of scattering glass round it.
-pub fn lamp_inside_a_medium() -> Scene {
+pub fn lamp_inside_a_medium() -> Written {
     let milky = basic(1.3, &rgb("0.3 0.2 0.1"), &scattering(&uniform(2.0), &henyey_greenstein(0.5)));
     let parts = vec![medium("m", 10, &milky), specular("glass", "m"), sphere([0.0, 0.0, 0.9], 0.7, "glass")];
     build(&[common(view()), room(["white"; 4]), parts, lamp(0.2, 3e5)])
 }
 
 /// Each wavelength goes a way of its own, far more so than in any glass.
-pub fn dispersive_prism() -> Scene {
+pub fn dispersive_prism() -> Written {
     let flint = "<basic><ior>1.4</ior><cauchy_b_coeff>0.05</cauchy_b_coeff></basic>";
     let ends = |y: f64| [[-0.5, y, -0.8], [0.5, y, -0.8], [0.0, y, 0.1]];
     let prism = Mesh {
@@ -113,7 +112,7 @@ pub fn dispersive_prism() -> Scene {
 }
 
 /// Liquid in glass, modelled so that it reaches into the glass; and a bubble of air in the liquid.
-pub fn nested_glass_and_liquid() -> Scene {
+pub fn nested_glass_and_liquid() -> Written {
     let mut parts = vec![
         medium("glass", 20, &basic(1.5, &rgb("0.4 0.1 0.3"), "")),
         medium("wine", 10, &basic(1.33, &rgb("0.5 4 6"), "")),

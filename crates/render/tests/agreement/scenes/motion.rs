@@ -1,9 +1,8 @@
 //! Scenes in which something moves while the shutter is open.
 
-use super::super::common::text::{basic, camera, henyey_greenstein, medium, scattering, specular, uniform};
+use super::super::text::{basic, camera, henyey_greenstein, medium, scattering, specular, uniform};
 use super::media::{cuboid, fog};
-use super::{block, build, common, lamp, room};
-use indigo_scene::Scene;
+use super::{Written, block, build, common, lamp, room};
 
 fn key(time: f64, pos: [f64; 3], angle: f64) -> String {
     let [x, y, z] = pos;
@@ -35,13 +34,13 @@ fn tumble() -> String {
 }
 
 /// A block that turns and moves, seen by a camera that does, too.
-pub fn motion() -> Scene {
+pub fn motion() -> Written {
     let lens = moving_camera([0.3, -3.4, 0.1], 0.1);
     build(&[common(lens), room(["white"; 4]), moving_model(block("grey"), &tumble()), lamp(0.3, 1e5)])
 }
 
 /// A camera that moves into fog, glass that scatters and tumbles, and other fog that comes over the lamp.
-pub fn moving_media() -> Scene {
+pub fn moving_media() -> Written {
     let milky = basic(1.3, &uniform(0.3), &scattering(&uniform(3.0), &henyey_greenstein(0.4)));
     let media = vec![
         fog("f", &uniform(0.05), &uniform(0.4), &henyey_greenstein(-0.3)),

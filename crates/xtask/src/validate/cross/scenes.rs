@@ -24,7 +24,7 @@ pub struct Entry {
 
 impl Entry {
     fn new(name: &'static str, about: &'static str, stage: Stage) -> Self {
-        Self { name, about, slack: 0.0, is_coloured: false, effort: 1, fine: 5, stage }
+        Self { name, about, slack: 0.0, is_coloured: false, effort: 1, fine: 4, stage }
     }
 }
 
@@ -129,7 +129,7 @@ fn surfaces() -> Vec<Entry> {
         in_even_light(Surface::Frosted(1.5, 200.0)),
     );
     frosted.slack = 1e-3;
-    frosted.fine = 3;
+    frosted.fine = 1;
     vec![
         Entry::new("matt box", "Matt walls, a block and a lamp.", in_room(vec![block(matt(0.4))])),
         Entry {
@@ -139,17 +139,21 @@ fn surfaces() -> Vec<Entry> {
         rough,
         Entry {
             is_coloured: true,
+            fine: 1,
             ..Entry::new(
                 "gold",
                 "A smooth ball of gold, by the table of n and k that comes with Indigo.",
                 in_even_light(Surface::Metal(GOLD, 1e12)),
             )
         },
-        Entry::new(
-            "smooth glass",
-            "A glass ball, n = 1.5, on a matt floor, with its caustic of even light.",
-            in_even_light(Surface::Glass(1.5, 0.0)),
-        ),
+        Entry {
+            fine: 1,
+            ..Entry::new(
+                "smooth glass",
+                "A glass ball, n = 1.5, on a matt floor, with its caustic of even light.",
+                in_even_light(Surface::Glass(1.5, 0.0)),
+            )
+        },
         frosted,
     ]
 }
@@ -207,10 +211,11 @@ fn lights() -> Vec<Entry> {
         mapped,
     );
     environment.slack = 1e-3;
-    environment.fine = 3;
+    environment.fine = 2;
     vec![
         Entry {
             effort: 2,
+            fine: 5,
             ..Entry::new(
                 "lamps",
                 "A ball of 32 triangles, a small leaning square and a large one.",
@@ -218,7 +223,7 @@ fn lights() -> Vec<Entry> {
             )
         },
         Entry {
-            fine: 8,
+            effort: 2,
             ..Entry::new("thin lens", "An aperture of 0.3 m, focused 2.6 m away, before the room.", lens)
         },
         Entry::new(

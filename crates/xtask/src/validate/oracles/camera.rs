@@ -50,7 +50,7 @@ fn diffracted_edge() -> Check {
         check = check.row(&what, Quantity::Y, Some([column, column + 1, 0, side]), value);
     }
     // Of the lamp, the noise is in columns that it hardly reaches.
-    check.effort(256, 7e-2)
+    check.effort(1024, 7e-2)
 }
 
 /// The mean over a column that begins so many pixels right of the edge, over that of the lamp.
@@ -101,7 +101,7 @@ fn parallel() -> Check {
     let check = Check::new(GROUP, "orthographic", about, scene_file(&parts))
         .unit(AROUND_NITS)
         .by(PATH)
-        .effort(32, 5e-3);
+        .effort(64, 5e-3);
     let [first, second] = [[5, 7], [9, 11]];
     let areas = [[first, first], [second, first], [first, second], [second, second]];
     let names = ["upper left", "upper right", "lower left", "lower right"];
@@ -135,7 +135,7 @@ fn all_around() -> Check {
                 check.row(&what, Quantity::Y, Some(area), Target::Value(part([right, ahead, above]), 0.0));
         }
     }
-    check.unit(AROUND_NITS).by(PATH).effort(16, 5e-3)
+    check.unit(AROUND_NITS).by(PATH).effort(32, 5e-3)
 }
 
 /// A black sheet whose edge crosses the middle of the picture while the shutter is open.
@@ -161,7 +161,7 @@ fn moving() -> Check {
         let what = format!("column {column}");
         check = check.row(&what, Quantity::Y, Some([column, column + 1, 0, side]), Target::Value(share, 0.0));
     }
-    check.effort(64, 3e-2)
+    check.effort(320, 3e-2)
 }
 
 #[cfg(test)]

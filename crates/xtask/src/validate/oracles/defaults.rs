@@ -64,5 +64,5 @@ fn furnace() -> Check {
         check = check.row(what, Quantity::Y, Some(area), Target::Value(value, 0.0));
     }
     // Metropolis sampling gives parts of a picture as many samples as chance will have it.
-    check.unit(AROUND_NITS).by(&[Renderer::AsItComes]).effort(64, 6e-2)
+    check.unit(AROUND_NITS).by(&[Renderer::AsItComes]).effort(128, 6e-2)
 }

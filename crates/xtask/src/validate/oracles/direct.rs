@@ -124,7 +124,7 @@ pub fn checks() -> Vec<Check> {
 /// Without Metropolis sampling, which gains nothing from more shapes of the same lamp, and with fewer samples in the quick form.
 fn by_techniques(check: Check) -> Check {
     let mut check = check.by(TECHNIQUES);
-    check.quick.samples /= 4;
+    check.quick.samples /= 2;
     check
 }
 

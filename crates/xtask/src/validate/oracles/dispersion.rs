@@ -57,6 +57,7 @@ fn mirror(nm: f64) -> Check {
         .is(luminance(nm, |nm| fresnel(1.0, index(nm))) / luminance(nm, |_| 1.0), 0.0)
         .by(PATH)
         .effort(1024, 5e-3)
+        .quickly(256)
 }
 
 /// Of the prism: its angle, and the distance of its first face, which looks at the camera.
@@ -96,7 +97,7 @@ fn prism(nm: f64) -> Check {
         .unit(all)
         .is(value, 0.0)
         .by(PATH)
-        .effort(256, 1e-2)
+        .effort(512, 1e-2)
 }
 
 /// The mean of a picture through the prism.

@@ -23,7 +23,7 @@ pub fn checks() -> Vec<Check> {
         );
         let seen = interface(degrees, 0.0, &background(&uniform(AROUND)));
         // Most light is lost here.
-        let reflects = check(format!("reflected at {degrees}°"), &about, seen, reflected).effort(128, 2e-2);
+        let reflects = check(format!("reflected at {degrees}°"), &about, seen, reflected).effort(256, 2e-2);
         let about = format!(
             "A wide lamp of radiance n² in the glass: radiance over n² is kept by what refracts, of which facets let through \
              ∫ (1 − F) D G₁ G₁ (o·h) / cos o dh = {passed:.5} (Walter et al. 2007, equations 21 and 23)."

@@ -51,7 +51,8 @@ fn albedos() -> Vec<Check> {
             "Linear in its parts: 0.7 · 0.8 + 0.3 · 0.2.",
             &[grey("a", 0.8), grey("b", 0.2), material("m", blend), ball],
             0.7 * 0.8 + 0.3 * 0.2,
-        ),
+        )
+        .longer(Renderer::Metropolis, 4),
         furnace(
             "thin sheet",
             "Of each side’s light 0.6 is scattered back by the front’s material, of albedo 0.7, and 0.5 of the rest comes through from the \

@@ -96,6 +96,7 @@ fn flux() -> Check {
     with_file(Check::new(GROUP, "flux of a photometric lamp", about, scene).is(luminance, 1e-5 * luminance))
         .by(TECHNIQUES)
         .effort(256, 1e-2)
+        .quickly(128)
 }
 
 /// Height of the lamp above the floor, metres.

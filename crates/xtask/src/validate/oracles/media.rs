@@ -30,8 +30,8 @@ fn half_spaces() -> Vec<Check> {
                  It is 100 mean free paths deep here, so that less than a millionth comes through it, and as wide that its sides are not seen.";
     let mut checks = vec![];
     for (albedo, cosine, value, samples) in [
-        (0.5, 1.0, 0.115_225_9, 512),
-        (0.9, 1.0, 0.414_947_5, 256),
+        (0.5, 1.0, 0.115_225_9, 640),
+        (0.9, 1.0, 0.414_947_5, 384),
         (0.9, 0.5, 0.507_938_9, 256),
         (0.99, 1.0, 0.752_720_7, 128),
     ] {

@@ -60,7 +60,8 @@ fn film(index: f64, thickness_nm: f64, degrees: f64) -> Check {
             .row("x / y", Quantity::XOverY, None, Target::Value(seen[0] / seen[1], 1e-5))
             .row("z / y", Quantity::ZOverY, None, Target::Value(seen[2] / seen[1], 1e-5))
             .by(PATH)
-            .effort(1024, 1e-2);
+            .effort(1024, 1e-2)
+            .quickly(64);
     Check { files: vec![("metal.nk".to_owned(), constant_nk(BELOW[0], BELOW[1]))], ..check }
 }
 

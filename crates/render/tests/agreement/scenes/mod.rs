@@ -1,4 +1,5 @@
-//! Scenes for the grid: small, each with something that one mode could get wrong.
+//! Scenes for the grid: small, each with something that one mode could get wrong. `cargo xtask validate` renders them by the console,
+//! too, and has its own `shapes`, `text`, `encode` and `SIDE` beside them.
 
 mod lens;
 mod lights;
@@ -12,11 +13,9 @@ pub use materials::*;
 pub use media::*;
 pub use motion::*;
 
-use super::SIDE;
-use super::common::scene;
-use super::common::shapes::{Mesh, add, cross, mesh_light, model};
-use super::common::text::{background, diffuse, flat_camera, grey, null, scene_file, settings, uniform};
-use indigo_scene::Scene;
+use super::shapes::{Mesh, add, cross, mesh_light, model};
+use super::text::{background, diffuse, flat_camera, grey, null, scene_file, settings, uniform};
+use super::{SIDE, encode};
 
 const SPECTRUM_D65: &str = "<blackbody><temperature>6500</temperature><gain>1e-9</gain></blackbody>";
 
@@ -67,20 +66,30 @@ fn view() -> String {
     flat_camera([0.0, -3.6, 0.0], [0.0, 1.0, 0.0], 0.42)
 }
 
-fn build(parts: &[Vec<String>]) -> Scene {
-    scene(&scene_file(&parts.concat()))
+/// A scene's text, and the files that it names.
+pub struct Written {
+    pub text: String,
+    pub files: Vec<(&'static str, Vec<u8>)>,
+}
+
+fn written<const N: usize>(parts: &[String], files: [(&'static str, Vec<u8>); N]) -> Written {
+    Written { text: scene_file(parts), files: files.into() }
+}
+
+fn build(parts: &[Vec<String>]) -> Written {
+    written(&parts.concat(), [])
 }
 
 fn common(camera: String) -> Vec<String> {
     vec![settings(SIDE, ""), camera, grey("white", 0.7), grey("grey", 0.4), grey("black", 0.0)]
 }
 
-pub fn diffuse_box() -> Scene {
+pub fn diffuse_box() -> Written {
     build(&[common(view()), room(["white"; 4]), block("grey"), lamp(0.3, 1e5)])
 }
 
 /// Behind the camera: seen directly, it would be all that Metropolis sampling knows of.
-pub fn small_light() -> Scene {
+pub fn small_light() -> Written {
     let lamp = vec![
         wall([0.0, 1.0, 0.0], 4.5, 0.01).text("lamp", "black"),
         mesh_light("lamp", &uniform(1e9), [0.0; 3], 1.0, ""),
@@ -89,7 +98,7 @@ pub fn small_light() -> Scene {
 }
 
 /// Lamps of very different size and power, some hidden, one with its back to the room.
-pub fn many_lights() -> Scene {
+pub fn many_lights() -> Written {
     let mut lamps = vec![];
     for i in 0..6u32 {
         let size = 0.02 + 0.03 * f64::from(i);
@@ -102,11 +111,11 @@ pub fn many_lights() -> Scene {
     build(&[common(view()), room(["white"; 4]), block("grey"), lamps])
 }
 
-pub fn environment_only() -> Scene {
+pub fn environment_only() -> Written {
     build(&[common(view()), room(["white"; 4]), block("white"), vec![background(&uniform(1e4))]])
 }
 
-pub fn environment_and_lamp() -> Scene {
+pub fn environment_and_lamp() -> Written {
     build(&[
         common(view()),
         room(["white"; 4]),
@@ -117,7 +126,7 @@ pub fn environment_and_lamp() -> Scene {
 }
 
 /// Vertex normals of a coarse ball lean far from its triangles' own.
-pub fn smoothed_normals() -> Scene {
+pub fn smoothed_normals() -> Written {
     let ball = |center: [f64; 3], radius: f64, name: &str| {
         let mut mesh = Mesh::ball(1);
         for p in &mut mesh.points {
@@ -140,7 +149,7 @@ pub fn smoothed_normals() -> Scene {
     ])
 }
 
-pub fn coloured_walls_and_lamps() -> Scene {
+pub fn coloured_walls_and_lamps() -> Written {
     let rgb = |c: &str| format!("<rgb><rgb>{c}</rgb><gamma>1</gamma></rgb>");
     let narrow = "<peak><peak_min>580</peak_min><peak_width>20</peak_width><base_value>1e3</base_value><peak_value>2e6</peak_value></peak>";
     build(&[
@@ -159,7 +168,7 @@ pub fn coloured_walls_and_lamps() -> Scene {
 }
 
 /// Surfaces that do nothing, before the lamp, the camera and the walls.
-pub fn invisible_surfaces() -> Scene {
+pub fn invisible_surfaces() -> Written {
     build(&[
         common(view()),
         vec![null("nothing")],
@@ -173,7 +182,7 @@ pub fn invisible_surfaces() -> Scene {
 }
 
 /// A sheet that lets scattered light through, under an even sky: what is drawn from the sky depends on the side.
-pub fn light_through_a_sheet() -> Scene {
+pub fn light_through_a_sheet() -> Written {
     let sheet = format!(
         "<material><name>sheet</name><diffuse_transmitter><albedo_spectrum>{}</albedo_spectrum></diffuse_transmitter></material>",
         uniform(0.8)
@@ -189,8 +198,67 @@ pub fn light_through_a_sheet() -> Scene {
 }
 
 /// Only one scattering event: nothing may be counted twice where few strategies remain.
-pub fn single_scattering_only() -> Scene {
-    let mut scene = diffuse_box();
-    scene.transport.max_depth = 1;
-    scene
+pub fn single_scattering_only() -> Written {
+    let mut parts = common(view());
+    parts[0] = settings(SIDE, "<max_depth>1</max_depth>");
+    build(&[parts, room(["white"; 4]), block("grey"), lamp(0.3, 1e5)])
 }
+
+/// Hands all scenes to a macro: `always` ones are tested in every run, `with_grid` ones by `cargo xtask test --grid` alone.
+macro_rules! for_all {
+    ($with:ident) => {
+        $with! {
+            always: [
+                small_light,
+                environment_and_lamp,
+                all_lights_together,
+                portal_lit_room,
+                thin_lens_out_of_focus,
+                orthographic_camera,
+                spherical_camera,
+                motion,
+                moving_media,
+                lamps_out_of_focus,
+                lamp_deflected_straight,
+                coloured_walls_and_lamps,
+                invisible_surfaces,
+                light_through_a_sheet,
+                glass_ball_with_caustic,
+                scattering_glass,
+                dispersive_prism,
+                bump_mapped_walls,
+                light_behind_frosted_glass,
+            ]
+            with_grid: [
+                diffuse_box,
+                many_lights,
+                environment_only,
+                environment_map,
+                map_through_portals,
+                rectangle_lamp_beside_a_hazy_sky,
+                photometric_lamp,
+                sun_and_sky,
+                sun_in_space,
+                two_sided_photometric_lamp,
+                textured_lamp,
+                blades_out_of_focus,
+                image_out_of_focus,
+                deflected_rays,
+                deflected_by_dust,
+                spot_out_of_focus_through_a_portal,
+                lamp_out_of_focus_in_fog,
+                smoothed_normals,
+                single_scattering_only,
+                mirror_seen_through_glass,
+                coloured_absorbing_medium,
+                scattering_medium,
+                camera_inside_a_medium,
+                lamp_inside_a_medium,
+                nested_glass_and_liquid,
+                glossy_exchange,
+                blended_surfaces,
+            ]
+        }
+    };
+}
+pub(crate) use for_all;
