@@ -64,7 +64,7 @@ fn measure(path: &str, arguments: &Arguments, console: &mut Console) -> Result<V
         match event {
             // Elsewhere than on a terminal it would be a line each time.
             Event::Progress(progress) if console.is_terminal() && first_pass.is_some() => {
-                console.progress(&progress)
+                console.progress(&progress);
             }
             Event::Progress(_) => {}
             Event::Halted(HaltReason::Failed(message), _) => {

@@ -97,7 +97,7 @@ impl Options {
 pub fn run(arguments: &[String]) -> Outcome {
     let options = Options::parse(arguments)?;
     let folder = process::target_dir().join("bench");
-    let console = Console::new(options.console.clone(), &folder, 1)?;
+    let console = Console::new(options.console.clone(), &folder, 1, false)?;
     let path = |ending: &str| folder.join(format!("{}.{ending}", options.name));
     let earlier = options.against.as_deref().map(|against| earlier(against, &path("json"))).transpose()?;
     let wanted = |series: &&Series| options.only.as_ref().is_none_or(|only| series.name == only);

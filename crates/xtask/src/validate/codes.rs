@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::console::read_rgb;
+use super::picture::read_rgb;
 
 /// How far from a code a number may be and still be rounded to it: half, and what single precision may make of it.
 const NEAREST: f64 = 0.5 + 0.005;

@@ -1,4 +1,4 @@
-//! Renders scenes with the release console, and reads the pictures.
+//! Renders scenes with the release console.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -6,89 +6,16 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-use exr::prelude::{FlatSamples, read_first_flat_layer_from_file};
-
-use super::check::{Area, Check, Form, Quantity, Renderer};
+use super::check::{Check, Form, Renderer};
 use super::codes;
-use crate::{here, process};
+use super::kept::Stamp;
+use super::picture::Picture;
+use crate::{Outcome, here, process};
 
 /// The settings that `text::settings` writes, in whose place a renderer's own stand.
 pub const TECHNIQUE: &str = "<metropolis>false</metropolis><bidirectional>false</bidirectional>";
-/// Rows of Rec. 709 (D65) to XYZ, as IEC 61966-2-1 derives them, to seven digits.
-pub const RGB_TO_XYZ: [[f64; 3]; 3] = [
-    [0.412_390_8, 0.357_584_3, 0.180_480_8],
-    [0.212_639_0, 0.715_168_7, 0.072_192_3],
-    [0.019_330_8, 0.119_194_8, 0.950_532_2],
-];
-
 /// How long a render may take: the longest of the full form are minutes.
 const LIMIT: Duration = Duration::from_hours(1);
-
-/// A picture in X, Y, Z, cd/m².
-#[derive(Clone, Debug, PartialEq)]
-pub struct Picture {
-    /// Columns and rows.
-    pub size: [usize; 2],
-    /// Rows from the top.
-    pub pixels: Vec<[f64; 3]>,
-}
-
-impl Picture {
-    /// Reads an EXR file of linear Rec. 709.
-    pub fn read(path: &Path) -> Result<Self, String> {
-        let (size, rgb) = read_rgb(path)?;
-        let to_xyz = |rgb: [f64; 3]| RGB_TO_XYZ.map(|row| (0..3).map(|c| row[c] * rgb[c]).sum());
-        Ok(Self { size, pixels: rgb.into_iter().map(to_xyz).collect() })
-    }
-
-    /// The same, if it has the size that a scene asks for: areas are of that.
-    fn of_size(self, scene: &str) -> Result<Self, String> {
-        let asked = ["width", "height"].map(|name| number_in(scene, name));
-        if asked == self.size.map(Some) {
-            return Ok(self);
-        }
-        Err(format!("a picture of {:?} pixels, of which the scene wants {asked:?}", self.size))
-    }
-
-    /// Mean X, Y, Z of an area, or of all.
-    pub fn mean(&self, area: Option<Area>) -> [f64; 3] {
-        let [x0, x1, y0, y1] = area.unwrap_or([0, self.size[0], 0, self.size[1]]);
-        let mut sum = [0.0; 3];
-        for y in y0..y1 {
-            for pixel in &self.pixels[y * self.size[0] + x0..y * self.size[0] + x1] {
-                (0..3).for_each(|c| sum[c] += pixel[c]);
-            }
-        }
-        sum.map(|s| s / ((x1 - x0) * (y1 - y0)) as f64)
-    }
-
-    /// A number of an area.
-    pub fn value(&self, quantity: Quantity, area: Option<Area>, unit: f64) -> f64 {
-        let [x, y, z] = self.mean(area);
-        match quantity {
-            Quantity::Y => y / unit,
-            Quantity::XOverY => x / y,
-            Quantity::ZOverY => z / y,
-        }
-    }
-}
-
-/// Columns and rows, and the pixels, rows from the top, of an EXR file of linear Rec. 709.
-pub fn read_rgb(path: &Path) -> Result<([usize; 2], Vec<[f64; 3]>), String> {
-    let fault = |why: &dyn std::fmt::Display| format!("{}: {why}", path.display());
-    let image = read_first_flat_layer_from_file(path).map_err(|error| fault(&error))?;
-    let layer = image.layer_data;
-    let channel = |name: &str| {
-        let found = layer.channel_data.list.iter().find(|channel| channel.name.to_string() == name);
-        match found.map(|channel| &channel.sample_data) {
-            Some(FlatSamples::F32(values)) => Ok(values),
-            _ => Err(fault(&format!("no channel {name} of 32-bit numbers"))),
-        }
-    };
-    let (r, g, b) = (channel("R")?, channel("G")?, channel("B")?);
-    let rgb = r.iter().zip(g).zip(b).map(|((r, g), b)| [*r, *g, *b].map(f64::from));
-    Ok(([layer.size.x(), layer.size.y()], rgb.collect()))
-}
 
 /// The console, and where it may write.
 pub struct Console {
@@ -100,6 +27,10 @@ pub struct Console {
     pub jobs: usize,
     /// Whether it was built here, so that the commit is known.
     is_built_here: bool,
+    /// Whether pictures that an interrupted run has left are taken.
+    pub resumes: bool,
+    /// Of the program.
+    stamp: Stamp,
 }
 
 /// Writes a scene to be rendered by one of Indigo's ways, and its files, into a folder; gives its path.
@@ -171,7 +102,7 @@ struct Job<'a> {
 
 impl Console {
     /// Builds the release console, if it must be, or takes another program.
-    pub fn new(program: Option<PathBuf>, folder: &Path, jobs: usize) -> Result<Self, String> {
+    pub fn new(program: Option<PathBuf>, folder: &Path, jobs: usize, resumes: bool) -> Result<Self, String> {
         let is_built_here = program.is_none();
         let program = match program {
             Some(program) => program,
@@ -186,7 +117,9 @@ impl Console {
         std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
         let program = std::fs::canonicalize(&program).map_err(|e| format!("{}: {e}", program.display()))?;
         let folder = std::fs::canonicalize(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
-        Ok(Self { program, folder, jobs, is_built_here })
+        let bytes = std::fs::read(&program).map_err(|e| format!("{}: {e}", program.display()))?;
+        let stamp = Stamp::of([&bytes[..]]);
+        Ok(Self { program, folder, jobs, is_built_here, resumes, stamp })
     }
 
     /// The console's own words, and the commit if it was built here from one.
@@ -209,8 +142,8 @@ impl Console {
         let mut jobs = vec![];
         for check in checks {
             for &renderer in check.renderers.iter().filter(|r| **r != Renderer::Mitsuba) {
-                self.write_scene(check, renderer)?;
                 let samples = check.samples(form, renderer);
+                self.write_scene(check, renderer, samples)?;
                 jobs.extend((0..form.seeds()).map(|seed| Job { check, renderer, seed, samples }));
             }
         }
@@ -257,18 +190,61 @@ impl Console {
         self.folder.join(check.slug())
     }
 
-    fn write_scene(&self, check: &Check, renderer: Renderer) -> Result<PathBuf, String> {
-        write_scene(&self.folder_of(check), &check.scene, &check.files, renderer)
-            .map_err(|error| format!("{}: {error}", check.name))
+    /// Writes what a renderer needs, and takes away pictures that are not this run's.
+    fn write_scene(&self, check: &Check, renderer: Renderer, samples: u32) -> Outcome {
+        let folder = self.folder_of(check);
+        let scene = write_scene(&folder, &check.scene, &check.files, renderer)
+            .map_err(|error| format!("{}: {error}", check.name))?;
+        let text = std::fs::read(&scene).map_err(|error| format!("{}: {error}", scene.display()))?;
+        let head = [self.stamp.bytes().to_vec(), samples.to_le_bytes().to_vec(), text];
+        let files = check.files.iter().flat_map(|(name, bytes)| [name.as_bytes(), &bytes[..]]);
+        let stamp = Stamp::of(head.iter().map(Vec::as_slice).chain(files));
+        if !(stamp.is_kept(&scene.with_extension("stamp"))? && self.resumes) {
+            self.clear(check, renderer);
+        }
+        Ok(())
+    }
+
+    /// Takes a renderer's pictures away: thousands of them would fill folders that nobody looks at. The scenes stay.
+    fn clear(&self, check: &Check, renderer: Renderer) {
+        for seed in 0..Form::Full.seeds() {
+            let [picture, linear] = self.pictures(check, renderer, seed);
+            drop((std::fs::remove_file(picture), std::fs::remove_file(linear)));
+        }
+    }
+
+    /// Takes all pictures away, once the report is written.
+    pub fn clear_all<'a>(&self, checks: impl IntoIterator<Item = &'a Check>) {
+        for check in checks {
+            check.renderers.iter().for_each(|renderer| self.clear(check, *renderer));
+        }
+    }
+
+    /// Where a render's PNG and its untonemapped EXR lie.
+    fn pictures(&self, check: &Check, renderer: Renderer, seed: usize) -> [PathBuf; 2] {
+        let stem = format!("{renderer:?}_{seed}").to_lowercase();
+        let folder = self.folder_of(check);
+        [folder.join(format!("{stem}.png")), folder.join(format!("{stem}_untonemapped.exr"))]
     }
 
     fn run(&self, job: &Job) -> Result<Render, String> {
-        let stem = format!("{:?}_{}", job.renderer, job.seed).to_lowercase();
+        let [picture, linear] = self.pictures(job.check, job.renderer, job.seed);
+        let fault = |why: String| format!("{}, {}: {why}", job.check.name, job.renderer.name());
+        // Each is written whole or not at all.
+        if !picture.exists() || !linear.exists() {
+            self.call(job, &picture).map_err(fault)?;
+        }
+        let read = Picture::read(&linear).and_then(|picture| picture.of_size(&job.check.scene));
+        let wrong_codes = match job.check.screen {
+            Some(scale) => codes::wrong(&linear, &picture, scale),
+            None => Ok(0),
+        };
+        let render = read.and_then(|picture| Ok(Render { picture, wrong_codes: wrong_codes?, seconds: 0.0 }));
+        render.map_err(fault)
+    }
+
+    fn call(&self, job: &Job, picture: &Path) -> Outcome {
         let folder = self.folder_of(job.check);
-        let picture = folder.join(format!("{stem}.png"));
-        let linear = folder.join(format!("{stem}_untonemapped.exr"));
-        // What a run that was killed has left would be taken for this one's.
-        drop((std::fs::remove_file(&linear), std::fs::remove_file(&picture)));
         let seed = seed(job.check, job.renderer, job.seed);
         let mut command = Command::new(&self.program);
         command
@@ -283,20 +259,12 @@ impl Console {
                 &job.samples.to_string(),
                 "-o",
             ])
-            .arg(&picture)
+            .arg(picture)
             .current_dir(&folder);
-        let log = folder.join(format!("{stem}.log"));
-        let fault = |why: String| format!("{}, {}: {why}", job.check.name, job.renderer.name());
-        ended(&mut command, &log, LIMIT).map_err(fault)?;
-        let read = Picture::read(&linear).and_then(|picture| picture.of_size(&job.check.scene));
-        let wrong_codes = match job.check.screen {
-            Some(scale) => codes::wrong(&linear, &picture, scale),
-            None => Ok(0),
-        };
-        let render = read.and_then(|picture| Ok(Render { picture, wrong_codes: wrong_codes?, seconds: 0.0 }));
-        // Thousands of them would fill folders that nobody looks at: the scenes stay.
-        drop((std::fs::remove_file(&linear), std::fs::remove_file(&picture), std::fs::remove_file(&log)));
-        render.map_err(fault)
+        let log = picture.with_extension("log");
+        ended(&mut command, &log, LIMIT)?;
+        drop(std::fs::remove_file(&log));
+        Ok(())
     }
 }
 
@@ -325,12 +293,6 @@ fn ended(command: &mut Command, log: &Path, limit: Duration) -> Result<(), Strin
     Err(format!("{status}\n{}", std::fs::read_to_string(log).unwrap_or_default()))
 }
 
-/// The number that the one element of a name holds.
-fn number_in(scene: &str, name: &str) -> Option<usize> {
-    let (_, after) = scene.split_once(&format!("<{name}>"))?;
-    after.split_once('<')?.0.trim().parse().ok()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -346,14 +308,5 @@ mod tests {
         assert!(run("echo why >&2; exit 3", 60_000).is_err_and(|said| said.contains("why")));
         assert!(run("exec sleep 60", 50).is_err_and(|said| said.contains("not done")));
         std::fs::remove_file(&log).expect("it was written");
-    }
-
-    #[test]
-    fn a_picture_of_another_size_than_the_scene_s_is_refused() {
-        let picture = Picture { size: [8, 4], pixels: vec![[0.0; 3]; 32] };
-        let scene = |width: u32| format!("<width>{width}</width><height>4</height>");
-        assert_eq!(picture.clone().of_size(&scene(8)), Ok(picture.clone()));
-        assert!(picture.clone().of_size(&scene(16)).is_err());
-        assert!(picture.of_size("").is_err());
     }
 }

@@ -2,7 +2,7 @@
 
 use super::check::Area;
 use super::codes;
-use super::console::Picture;
+use super::picture::Picture;
 use super::png;
 use super::statistics::Estimate;
 

@@ -1,8 +1,8 @@
 //! What pictures say: each number beside what it must be.
 
 use super::check::{Area, Check, Demand, Quantity, Renderer, Row, Target};
-use super::console::Picture;
 use super::oracles::EVEN_LIGHT;
+use super::picture::Picture;
 use super::statistics::{Comparison, Estimate, quantile, sidak};
 
 /// Probability that any comparison of a run fails although nothing is wrong.

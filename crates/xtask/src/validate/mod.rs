@@ -13,8 +13,10 @@ pub mod grid;
 pub mod hung;
 pub mod images;
 pub mod judge;
+pub mod kept;
 pub mod oracles;
 pub mod page;
+pub mod picture;
 #[path = "../../../testkit/src/png.rs"]
 mod png;
 pub mod report;
@@ -38,7 +40,7 @@ use report::{Checked, LeftOut, Report};
 use crate::{Outcome, here, process, venv};
 
 const USAGE: &str = "usage: cargo xtask validate [--full] [--only GROUP OR NAME] [--console PROGRAM] [--jobs N] \
-                     [--no-mitsuba] [--out FOLDER]";
+                     [--no-mitsuba] [--resume] [--out FOLDER]";
 
 struct Options {
     form: Form,
@@ -46,6 +48,7 @@ struct Options {
     console: Option<PathBuf>,
     jobs: usize,
     mitsuba: bool,
+    resume: bool,
     out: PathBuf,
 }
 
@@ -58,6 +61,7 @@ impl Options {
             // A short render waits for its files to reach the disk for half of its time.
             jobs: 2 * std::thread::available_parallelism().map_or(1, usize::from),
             mitsuba: true,
+            resume: false,
             out: process::target_dir().join("validation"),
         };
         let mut words = arguments.iter();
@@ -66,6 +70,7 @@ impl Options {
             match word.as_str() {
                 "--full" => options.form = Form::Full,
                 "--no-mitsuba" => options.mitsuba = false,
+                "--resume" => options.resume = true,
                 "--only" => options.only = Some(value()?.to_lowercase()),
                 "--console" => options.console = Some(value()?.into()),
                 "--jobs" => options.jobs = value()?.parse().map_err(|_| USAGE)?,
@@ -103,7 +108,8 @@ pub fn run(arguments: &[String]) -> Outcome {
     if checks.is_empty() {
         return Err("no check has that name".into());
     }
-    let console = Console::new(options.console.clone(), &options.out.join("scenes"), options.jobs)?;
+    let console =
+        Console::new(options.console.clone(), &options.out.join("scenes"), options.jobs, options.resume)?;
     if checks.iter().any(|check| check.mitsuba.is_some()) {
         // Before all that takes long: it may need a network.
         venv::for_validation()?;
@@ -113,7 +119,7 @@ pub fn run(arguments: &[String]) -> Outcome {
     let form = options.form;
     println!("{} checks, {comparisons} comparisons, {} renders each", checks.len(), form.seeds());
     let mut renders = console.render(&checks, form)?;
-    cross::render(&checks, &mut renders, &console.folder, form)?;
+    cross::render(&checks, &mut renders, &console, form)?;
     let threshold = threshold(comparisons);
     let count = checks.len();
     let pairs = checks.into_iter().zip(renders);
@@ -132,6 +138,7 @@ pub fn run(arguments: &[String]) -> Outcome {
         version: console.version(),
     };
     report.write(&options.out)?;
+    console.clear_all(report.checked.iter().map(|checked| &checked.check));
     report.say();
     match (report.failures().count(), report.broken().count()) {
         (0, 0) => Ok(()),
@@ -161,7 +168,7 @@ fn judged(check: Check, rendered: Rendered, form: Form, threshold: f64) -> Check
 #[cfg(test)]
 mod tests {
     use super::check::Renderer;
-    use super::console::Picture;
+    use super::picture::Picture;
     use super::*;
 
     #[test]

@@ -6,9 +6,9 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::check::{Check, Demand, Form, Target};
-use super::console::Picture;
 use super::judge::{Failure, Verdict};
 use super::page;
+use super::picture::Picture;
 use super::statistics::Estimate;
 
 /// A check, its pictures and what they said.

@@ -122,7 +122,9 @@ def render(job, one):
         for seed in range(job["first_seed"], job["first_seed"] + job["seeds"])
     ]
     seconds = np.array([time.monotonic() - start])
-    np.concatenate([seconds, np.stack(pictures).ravel()]).astype("<f4").tofile(job["out"])
+    # Whole or not at all: a later run may go on with it.
+    np.concatenate([seconds, np.stack(pictures).ravel()]).astype("<f4").tofile(job["out"] + ".part")
+    os.replace(job["out"] + ".part", job["out"])
 
 
 main()

@@ -9,7 +9,9 @@ use std::path::Path;
 use serde_json::json;
 
 use super::check::{Check, Form, Quantity, Renderer, TECHNIQUES, Target};
-use super::console::{self, Picture, Rendered, Series};
+use super::console::{self, Console, Rendered, Series};
+use super::kept::Stamp;
+use super::picture::Picture;
 use crate::{Outcome, process, venv};
 
 const GROUP: &str = "Beside Mitsuba";
@@ -61,34 +63,27 @@ fn check(entry: &scenes::Entry) -> Check {
 ///
 /// # Errors
 /// What could not be installed or started.
-pub fn render(checks: &[Check], renders: &mut [Rendered], folder: &Path, form: Form) -> Outcome {
+pub fn render(checks: &[Check], renders: &mut [Rendered], console: &Console, form: Form) -> Outcome {
+    let folder = &console.folder;
     let wanted: Vec<(usize, &Check)> =
         checks.iter().enumerate().filter(|(_, c)| c.mitsuba.is_some()).collect();
     if wanted.is_empty() {
         return Ok(());
     }
     let path = |check: &Check| folder.join(format!("{}.xyz", check.slug()));
-    let jobs: Vec<serde_json::Value> = wanted
-        .iter()
-        .map(|(_, check)| {
-            json!({"name": check.name, "scene": check.mitsuba, "samples": form.demand(check).samples,
-                   "seeds": form.seeds(), "first_seed": first_seed(check), "out": path(check)})
-        })
-        .collect();
-    let write = |name: &str, text: String| {
-        let path = folder.join(name);
-        std::fs::write(&path, text)
-            .map(|()| path.clone())
-            .map_err(|error| format!("{}: {error}", path.display()))
-    };
-    let script = write("render.py", SCRIPT.to_owned())?;
-    let list = write("mitsuba.json", serde_json::Value::from(jobs).to_string())?;
+    let mut jobs = vec![];
     for (_, check) in &wanted {
-        // What an earlier run left would be taken for this one's.
-        drop(std::fs::remove_file(path(check)));
+        let job = json!({"name": check.name, "scene": check.mitsuba, "samples": form.demand(check).samples,
+                         "seeds": form.seeds(), "first_seed": first_seed(check), "out": path(check)});
+        let stamp = Stamp::of([SCRIPT.as_bytes(), job.to_string().as_bytes()]);
+        if !(stamp.is_kept(&path(check).with_extension("stamp"))? && console.resumes) {
+            drop(std::fs::remove_file(path(check)));
+        }
+        if !path(check).exists() {
+            jobs.push(job);
+        }
     }
-    let python = venv::for_validation()?;
-    let end = process::run(std::process::Command::new(python).arg(script).arg(list));
+    let end = if jobs.is_empty() { Ok(()) } else { run_script(&jobs, folder) };
     for (i, check) in wanted {
         let own = read(&path(check), stage::SIDE as usize, form.seeds());
         let own = own.map_err(|error| end.clone().err().unwrap_or(error));
@@ -99,6 +94,19 @@ pub fn render(checks: &[Check], renders: &mut [Rendered], folder: &Path, form: F
         });
     }
     Ok(())
+}
+
+fn run_script(jobs: &[serde_json::Value], folder: &Path) -> Outcome {
+    let write = |name: &str, text: String| {
+        let path = folder.join(name);
+        std::fs::write(&path, text)
+            .map(|()| path.clone())
+            .map_err(|error| format!("{}: {error}", path.display()))
+    };
+    let script = write("render.py", SCRIPT.to_owned())?;
+    let list = write("mitsuba.json", serde_json::Value::from(jobs).to_string())?;
+    let python = venv::for_validation()?;
+    process::run(std::process::Command::new(python).arg(script).arg(list))
 }
 
 /// Mitsuba's first of a check, of 32 bits.

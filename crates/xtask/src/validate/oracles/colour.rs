@@ -1,8 +1,8 @@
 //! Colours and photometry.
 
 use super::super::check::{Check, PATH, Quantity, Target};
-use super::super::console::RGB_TO_XYZ;
 use super::super::hung;
+use super::super::picture::RGB_TO_XYZ;
 use super::super::shapes::model;
 use super::super::text::{background, diffuse};
 use super::{AROUND, AROUND_NITS, integral, looking};

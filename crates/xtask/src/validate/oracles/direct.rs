@@ -118,7 +118,59 @@ pub fn checks() -> Vec<Check> {
     let under_both = |p: Point| under_manual()(p) + under_manual()(sub(p, [1.0, 1.0, 0.0]));
     checks.push(by_techniques(floor("two lamps", about, &both, [1.0, 1.0, 0.0], under_both)));
     checks.extend([[0.0, 0.0], [1.5, 0.4]].map(|target| by_techniques(portal(target))));
+    checks.extend(swapped());
     checks
+}
+
+/// Half sides of a square of the floor and of one that stands 1.2 m beside it, and the height of the latter's middle.
+const LYING: f64 = 0.5;
+const STANDING: f64 = 0.3;
+const MIDDLE: Point = [1.2, 0.1, 0.5];
+
+/// Light of one square on another, and of that on the first: the same flux.
+fn swapped() -> [Check; 2] {
+    let flux = flux_between();
+    let about = format!(
+        "Two squares at right angles send each other the same flux, {flux:.6} m² L (reciprocity), ∫∫ cos θ cos θ′ / d² dA dA′ by quadrature:          the mean of the other, which is all that is seen, is ρ / π of that by its own area."
+    );
+    let lying =
+        [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[x, y]| [LYING * x, LYING * y, 0.0]);
+    let standing = [[-1.0, -1.0], [-1.0, 1.0], [1.0, 1.0], [1.0, -1.0]]
+        .map(|[y, z]| [MIDDLE[0], MIDDLE[1] + STANDING * y, MIDDLE[2] + STANDING * z]);
+    // From 4 m before the middle, so that all of the square fills the picture.
+    let seen = [([0.0, 0.0, 4.0], LYING), ([MIDDLE[0] - 4.0, MIDDLE[1], MIDDLE[2]], STANDING)];
+    let corners = [lying, standing];
+    [0, 1].map(|lit| {
+        let (eye, half) = seen[lit];
+        let forwards = if lit == 0 { [0.0, 0.0, -1.0] } else { [1.0, 0.0, 0.0] };
+        let [lit_square, lamp] =
+            [corners[lit], corners[1 - lit]].map(|points| Mesh::polygon(points.to_vec()));
+        let parts = [
+            grey("lamp", 0.0) + &grey("matt", ALBEDO),
+            lit_square.text("lit", "matt") + &model("lit"),
+            lamp.text("shining", "lamp") + &mesh_light("shining", &uniform(RADIANCE), [0.0; 3], 1.0, ""),
+        ];
+        let scene = looking(eye, forwards, half / 4.0, "", &parts);
+        let value = ALBEDO / PI * flux / (4.0 * half * half) * RADIANCE * NITS_PER_UNIFORM;
+        let name = ["a standing lamp above a lying square", "the same with lamp and square swapped"][lit];
+        Check::new(GROUP, name, &about, scene).is(value, 1e-6 * value).by(TECHNIQUES).effort(64, 5e-3)
+    })
+}
+
+/// ∫∫ cos θ cos θ′ / d² dA dA′ of the two squares, by midpoints.
+fn flux_between() -> f64 {
+    const PLACES: i32 = 48;
+    let places = || (0..PLACES).map(|i| 2.0 * (f64::from(i) + 0.5) / f64::from(PLACES) - 1.0);
+    let pairs = || places().flat_map(|a| places().map(move |b| [a, b]));
+    let cells = (2.0 * LYING / f64::from(PLACES)).powi(2) * (2.0 * STANDING / f64::from(PLACES)).powi(2);
+    let between = |[x, y]: [f64; 2], [v, z]: [f64; 2]| {
+        let d =
+            sub([MIDDLE[0], MIDDLE[1] + STANDING * v, MIDDLE[2] + STANDING * z], [LYING * x, LYING * y, 0.0]);
+        let square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+        d[2] * d[0] / (square * square)
+    };
+    pairs().map(|on_floor| pairs().map(|on_wall| between(on_floor, on_wall)).sum::<f64>()).sum::<f64>()
+        * cells
 }
 
 /// Without Metropolis sampling, which gains nothing from more shapes of the same lamp, and with fewer samples in the quick form.

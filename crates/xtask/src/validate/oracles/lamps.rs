@@ -72,16 +72,92 @@ fn lamp(height: f64) -> String {
 /// All of them.
 pub fn checks() -> Vec<Check> {
     let mut checks = vec![flux()];
+    checks.extend(fluxes());
     checks.extend([10.0, 33.0, 60.0].map(below));
     checks.extend([20.0, 130.0, 205.0, 300.0].map(around));
     checks.extend([[0.0, 0.0], [0.8, 0.0], [-0.6, 0.5]].map(picture));
     checks
 }
 
-/// Light of the whole lamp: what it sends to a ball round it shines evenly from there after the first time.
+/// Light of the whole lamp.
 fn flux() -> Check {
     let lumens =
         2.0 * PI * integral(0.0, 0.5 * PI, 90_000, |theta| candelas(theta.to_degrees()) * theta.sin());
+    let mut check = in_white_ball("flux of a photometric lamp", lumens).effort(256, 1e-2).quickly(128);
+    check.files.push(("lamp.ies".to_owned(), photometry()));
+    check
+}
+
+/// Files of each symmetry, unit, tilt and step, by the lumens that their candelas add up to.
+const FILES: &[(&str, &[u8])] = &[
+    ("lambert_1000cd", include_bytes!("../../../../../testscenes/ies/lambert_1000cd.ies")),
+    (
+        "uniform_hemisphere_500cd",
+        include_bytes!("../../../../../testscenes/ies/uniform_hemisphere_500cd.ies"),
+    ),
+    ("spot_cos8_2000cd", include_bytes!("../../../../../testscenes/ies/spot_cos8_2000cd.ies")),
+    ("quadrant_bat", include_bytes!("../../../../../testscenes/ies/quadrant_bat.ies")),
+    ("bilateral_0_180", include_bytes!("../../../../../testscenes/ies/bilateral_0_180.ies")),
+    ("full_0_360", include_bytes!("../../../../../testscenes/ies/full_0_360.ies")),
+    ("tilt_include", include_bytes!("../../../../../testscenes/ies/tilt_include.ies")),
+    ("irregular_angles", include_bytes!("../../../../../testscenes/ies/irregular_angles.ies")),
+];
+
+fn fluxes() -> impl Iterator<Item = Check> {
+    FILES.iter().map(|(name, file)| {
+        let lumens = lumens(&String::from_utf8_lossy(file)).expect("a photometric file");
+        let mut check = in_white_ball(&format!("flux of {name}.ies"), lumens).effort(64, 3e-2);
+        check.files.push(("lamp.ies".to_owned(), file.to_vec()));
+        check
+    })
+}
+
+/// Lumens of a file of LM-63-2002: ∫ I sin θ dθ dφ of its candelas with straight lines between both angles, which each symmetry repeats.
+fn lumens(file: &str) -> Option<f64> {
+    let (_, after) = file.split_once("TILT=")?;
+    let mut numbers = after.split_ascii_whitespace();
+    let is_tilted = numbers.next()? == "INCLUDE";
+    let mut numbers = numbers.map(|word| word.parse::<f64>().ok());
+    let mut next = || numbers.next().flatten();
+    if is_tilted {
+        // The lamp stands as it should, where each factor is 1.
+        let (_, pairs) = (next()?, next()? as usize);
+        (0..2 * pairs).try_for_each(|_| next().map(drop))?;
+    }
+    let head: Vec<f64> = (0..13).map(|_| next()).collect::<Option<_>>()?;
+    let factor = head[2] * head[10] * head[11];
+    let mut list = |count: f64| (0..count as usize).map(|_| next()).collect::<Option<Vec<f64>>>();
+    let (down, round) = (list(head[3])?, list(head[4])?);
+    let rings = round.iter().map(|_| Some(ring(&down, &list(head[3])?))).collect::<Option<Vec<f64>>>()?;
+    // Each part of the whole turn has the mean of those that the file tells of.
+    let mean = match rings[..] {
+        [one] => one,
+        _ => {
+            let parts = round
+                .windows(2)
+                .zip(rings.windows(2))
+                .map(|(at, of)| 0.5 * (of[0] + of[1]) * (at[1] - at[0]));
+            parts.sum::<f64>() / (round.last()? - round.first()?)
+        }
+    };
+    Some(2.0 * PI * factor * mean)
+}
+
+/// ∫ I sin θ dθ of candelas at angles in degrees.
+fn ring(degrees: &[f64], candelas: &[f64]) -> f64 {
+    let spans = degrees.windows(2).zip(candelas.windows(2));
+    spans
+        .map(|(at, of)| {
+            let [from, to] = [at[0].to_radians(), at[1].to_radians()];
+            integral(from, to, 2000, |theta| {
+                (of[0] + (of[1] - of[0]) * (theta - from) / (to - from)) * theta.sin()
+            })
+        })
+        .sum()
+}
+
+/// What a lamp sends to a white ball round it shines evenly from there after the first time.
+fn in_white_ball(name: &str, lumens: f64) -> Check {
     let radius = 5.0f64;
     let area = 4.0 * PI * radius * radius;
     let luminance = ALBEDO / PI * lumens * ALBEDO / (area * (1.0 - ALBEDO));
@@ -93,10 +169,7 @@ fn flux() -> Check {
          that has been reflected shines evenly, ρ² Φ / ((1 − ρ) π A), on a patch that the lamp does not light itself."
     );
     // The lamp takes 3·10⁻⁶ of what flies about.
-    with_file(Check::new(GROUP, "flux of a photometric lamp", about, scene).is(luminance, 1e-5 * luminance))
-        .by(TECHNIQUES)
-        .effort(256, 1e-2)
-        .quickly(128)
+    Check::new(GROUP, name, about, scene).is(luminance, 1e-5 * luminance).by(TECHNIQUES)
 }
 
 /// Height of the lamp above the floor, metres.
@@ -199,4 +272,37 @@ fn picture([x, y]: [f64; 2]) -> Check {
     let value = |x: usize, _: usize| if x < TEXELS / 2 { 1.0 } else { DARKER as f32 };
     check.files.push(("halves.exr".to_owned(), hung::picture([TEXELS; 2], value)));
     check.by(if y == 0.0 { TECHNIQUES } else { PATH })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Closed forms of what the files sample are within what straight lines make of them: of 2.5 degrees for Lambert's cosine, π I, and
+    /// none for an even hemisphere, 2π I.
+    #[test]
+    fn files_have_their_lumens() {
+        let of = |name: &str| {
+            let (_, file) = FILES.iter().find(|(file, _)| *file == name).expect("a file");
+            lumens(&String::from_utf8_lossy(file)).expect("lumens")
+        };
+        assert!((of("uniform_hemisphere_500cd") / (1000.0 * PI) - 1.0).abs() < 1e-6);
+        for (name, lumens) in [
+            ("lambert_1000cd", 1000.0 * PI),
+            ("quadrant_bat", 800.0 * PI),
+            ("bilateral_0_180", 800.0 * PI),
+            ("full_0_360", 800.0 * PI),
+            ("tilt_include", 1000.0 * PI),
+        ] {
+            assert!((of(name) / lumens - 1.0).abs() < 1e-3, "{name}: {}", of(name));
+        }
+        // 2π I / 9 of cos⁸, which bends most between its angles.
+        assert!((of("spot_cos8_2000cd") / (2.0 * PI * 2000.0 * 1.44 / 9.0) - 1.0).abs() < 1e-2);
+    }
+
+    #[test]
+    fn rings_of_straight_lines_are_exact() {
+        // ∫ θ sin θ dθ from 0 to a right angle is 1.
+        assert!((ring(&[0.0, 90.0], &[0.0, 0.5 * PI]) - 1.0).abs() < 1e-6);
+    }
 }

@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use super::super::change::changed;
 use super::super::check::{Check, PATH, Quantity, TECHNIQUES, THREE, Target};
-use super::super::shapes::{Mesh, model};
-use super::super::text::{basic, henyey_greenstein, medium, scattering, specular, sphere, uniform};
+use super::super::shapes::{Mesh, mesh_light, model};
+use super::super::text::{basic, grey, henyey_greenstein, medium, scattering, specular, sphere, uniform};
 use super::colour::tristimulus;
 use super::{AROUND, AROUND_NITS, NITS_PER_UNIFORM, SIDE, in_even_light, integral, looking};
 
@@ -20,7 +20,7 @@ fn fog(absorption: f64, coefficient: f64, g: f64) -> String {
 
 /// All of them.
 pub fn checks() -> Vec<Check> {
-    [half_spaces(), vec![single_scattering(), coloured_cube()], slabs()].concat()
+    [half_spaces(), vec![single_scattering(), lamp_in_fog(), coloured_cube()], slabs()].concat()
 }
 
 /// A half space that scatters evenly, in even light: what it shows in a direction is, by reciprocity, the flux that it
@@ -79,6 +79,34 @@ fn single_scattering() -> Check {
         .is(value, 1e-5)
         .by(THREE)
         .effort(512, 1e-2)
+}
+
+/// A small ball of a lamp in fog that fills all, seen by a ray that passes half a metre beside it: light scattered once, by quadrature over
+/// that ray. Towards each point of it the lamp has the intensity of its own triangles that show their front.
+fn lamp_in_fog() -> Check {
+    const RADIUS: f64 = 2e-3;
+    const RADIANCE: f64 = 1.0e10;
+    let (absorption, coefficient, beside, before, end) = (0.1, 0.2, 0.5, 2.0, 20.0);
+    let extinction = absorption + coefficient;
+    let lamp = Mesh::ball(2).placed([1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0], RADIUS, [0.0; 3]);
+    let scattered = |t: f64| {
+        let way = f64::hypot(beside, t);
+        let lit = lamp.irradiance([0.0, t, beside], [0.0, -t / way, -beside / way]);
+        coefficient / (4.0 * PI) * lit * (-extinction * (t + before + way)).exp()
+    };
+    let value = RADIANCE * NITS_PER_UNIFORM * integral(-before, end, 20_000, scattered);
+    let parts = [
+        fog(absorption, coefficient, 0.0) + &grey("lamp", 0.0),
+        sphere([0.0, 0.0, 0.0], end, "m"),
+        lamp.text("lamp", "lamp") + &mesh_light("lamp", &uniform(RADIANCE), [0.0; 3], 1.0, ""),
+    ];
+    let seen = looking([0.0, -before, beside], [0.0, 1.0, 0.0], 1e-4, "<max_depth>1</max_depth>", &parts);
+    let about = "∫ σ_s / 4π · E(t) e^(−σ_t (t − t₀ + d(t))) dt along a ray, with the illuminance E by a lamp of 2 mm at the distance d(t), half a metre \
+                 at least; paths of one scattering event.";
+    Check::new(GROUP, "a small lamp in fog", about, seen)
+        .is(value, 1e-6 * value)
+        .by(TECHNIQUES)
+        .effort(256, 2e-2)
 }
 
 /// A cube that absorbs each wavelength differently, behind surfaces that are not there.

@@ -1,0 +1,60 @@
+//! Pictures that an interrupted run has left, for one that goes on with them (`--resume`).
+
+use std::path::Path;
+
+/// What pictures depend on, written beside them: of anything else they are not this run's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stamp(u64);
+
+impl Stamp {
+    /// Of bytes, one after another.
+    pub fn of<'a>(parts: impl IntoIterator<Item = &'a [u8]>) -> Self {
+        // FNV-1a of 64 bits; each part ends with its length, so that none runs into the next.
+        let mix = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3);
+        Self(parts.into_iter().fold(0xcbf2_9ce4_8422_2325, |hash, part| {
+            let hash = part.iter().fold(hash, mix);
+            part.len().to_le_bytes().iter().fold(hash, mix)
+        }))
+    }
+
+    /// Its bytes, as a part of another.
+    pub fn bytes(self) -> [u8; 8] {
+        self.0.to_le_bytes()
+    }
+
+    /// Whether a file beside pictures has it; writes it there if not.
+    ///
+    /// # Errors
+    /// What could not be written.
+    pub fn is_kept(self, path: &Path) -> Result<bool, String> {
+        let words = format!("{:016x}\n", self.0);
+        if std::fs::read_to_string(path).is_ok_and(|there| there == words) {
+            return Ok(true);
+        }
+        std::fs::write(path, words).map_err(|error| format!("{}: {error}", path.display()))?;
+        Ok(false)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn other_parts_have_other_stamps() {
+        let of = |parts: &[&str]| Stamp::of(parts.iter().map(|part| part.as_bytes()));
+        assert_eq!(of(&["a", "b"]), of(&["a", "b"]));
+        for other in [&["ab", ""][..], &["", "ab"], &["a"], &["b", "a"]] {
+            assert_ne!(of(&["a", "b"]), of(other), "{other:?}");
+        }
+    }
+
+    #[test]
+    fn a_stamp_is_kept_once_it_was_written() {
+        let path = std::env::temp_dir().join(format!("indigo-stamp-{}", std::process::id()));
+        let [first, second] = [Stamp::of([&b"one"[..]]), Stamp::of([&b"two"[..]])];
+        let said = [first, first, second, second].map(|stamp| stamp.is_kept(&path));
+        drop(std::fs::remove_file(&path));
+        assert_eq!(said, [Ok(false), Ok(true), Ok(false), Ok(true)]);
+    }
+}
