@@ -6,8 +6,8 @@ use indigo_camera::{Aperture, Blades, Pupil};
 use indigo_film::{FilmSize, FilmState, Filter, LayerKind};
 use indigo_imaging::png::{Depth, Format};
 use indigo_imaging::{
-    Diffraction, Exposure, Metadata, PictureSettings, ToneMapping, WhiteBalance, develop_image, exr,
-    on_sensor, png, untonemapped,
+    Diffraction, Exposure, Metadata, PictureSettings, Response, ToneMapping, WhiteBalance, develop_image,
+    exr, on_sensor, png, untonemapped,
 };
 use std::hint::black_box;
 use std::sync::Arc;
@@ -74,6 +74,9 @@ fn report() {
     let image = best("film to XYZ", || film.develop());
     best("linear, box", || develop_image(&image, &settings(&linear, Filter::Box)));
     best("linear, Mitchell-Netravali", || develop_image(&image, &settings(&linear, Filter::MN_DEFAULT)));
+    let response = Arc::new(Response::display());
+    let camera = ToneMapping::Camera { response, ev_adjust: 0.0, film_iso: 1e5 };
+    best("camera, Mitchell-Netravali", || develop_image(&image, &settings(&camera, Filter::MN_DEFAULT)));
     let picture = best("Reinhard, Mitchell-Netravali", || {
         develop_image(&image, &settings(&reinhard, Filter::MN_DEFAULT))
     });

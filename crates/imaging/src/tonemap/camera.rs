@@ -19,16 +19,25 @@ const SATURATION: f64 = 78.0;
 /// at most h²/8 · max|f''| = 2e-8, half a rounding of `f32`.
 const DECODE_CELLS: usize = 4096;
 
+/// Cells of a curve's guide for each of its points: where points lie evenly, three of four hold none, and nothing is searched.
+const GUIDE_CELLS: usize = 4;
+
+/// A point of a curve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Point {
+    irradiance: f32,
+    brightness: f32,
+    /// How the brightness changes from here to the next point; 0 where that is at the same place, and at the end.
+    slope: f32,
+}
+
 /// The response of one channel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
-    irradiance: Vec<f32>,
-    brightness: Vec<f32>,
-    /// How the brightness changes from each point to the next one; 0 between two at one place.
-    slopes: Vec<f32>,
+    points: Vec<Point>,
     /// Cells per unit of irradiance.
     cells: f32,
-    /// For each of as many even cells over [first, last] irradiance, the last point at or before its start.
+    /// For each of the even cells over [first, last] irradiance, the last point in a cell before it.
     guide: Vec<u32>,
 }
 
@@ -101,45 +110,47 @@ impl Curve {
         if !is_sound {
             return None;
         }
-        let start = |cell: usize| first + (last - first) * cell as f32 / n as f32;
-        let before = |cell: usize| irradiance.partition_point(|v| *v <= start(cell)).saturating_sub(1);
-        let guide = (0..n).map(|cell| before(cell) as u32).collect();
-        let slope = |(x, y): (&[f32], &[f32])| {
-            let slope = (y[1] - y[0]) / (x[1] - x[0]);
+        let point = |i: usize| {
+            let (x, y) = (irradiance[i], brightness[i]);
+            let slope = irradiance.get(i + 1).map_or(0.0, |next| (brightness[i + 1] - y) / (next - x));
             // A step, at one place or as good as one.
-            if slope.is_finite() { slope } else { 0.0 }
+            Point { irradiance: x, brightness: y, slope: if slope.is_finite() { slope } else { 0.0 } }
         };
-        let slopes = irradiance.windows(2).zip(brightness.windows(2)).map(slope).collect();
-        Some(Self {
-            irradiance: irradiance.to_vec(),
-            brightness: brightness.to_vec(),
-            slopes,
-            cells: n as f32 / (last - first),
-            guide,
-        })
+        let cells = (GUIDE_CELLS * n) as f32 / (last - first);
+        let mut guide = vec![];
+        for cell in 0..=GUIDE_CELLS * n {
+            let before = irradiance.partition_point(|x| cell_of(*x, *first, cells) < cell);
+            guide.push(before.saturating_sub(1) as u32);
+        }
+        Some(Self { points: (0..n).map(point).collect(), cells, guide })
     }
 
     /// The brightness of an irradiance: straight lines between the points, constant beyond the ends.
     #[inline]
     fn eval(&self, irradiance: f32) -> f32 {
-        let n = self.irradiance.len();
-        let (first, last) = (self.irradiance[0], self.irradiance[n - 1]);
-        if irradiance >= last {
-            return self.brightness[n - 1];
+        let [first, .., last] = &self.points[..] else { return 0.0 };
+        if irradiance >= last.irradiance {
+            return last.brightness;
         }
         // What is no number is dark.
-        if irradiance <= first || irradiance.is_nan() {
-            return self.brightness[0];
+        if irradiance <= first.irradiance || irradiance.is_nan() {
+            return first.brightness;
         }
-        let cell = ((irradiance - first) * self.cells) as usize;
-        // Rounding may have led into the next cell: the points before it are before this value all the same, but
-        // for the very next one.
-        let mut i = (self.guide[cell.min(n - 1)] as usize).saturating_sub(1);
-        while self.irradiance[i + 1] <= irradiance {
+        // Cells rise with irradiance, so that a point in one before lies before this value, rounding or not.
+        let cell = cell_of(irradiance, first.irradiance, self.cells);
+        let mut i = self.guide[cell.min(self.guide.len() - 1)] as usize;
+        while self.points[i + 1].irradiance <= irradiance {
             i += 1;
         }
-        self.brightness[i] + self.slopes[i] * (irradiance - self.irradiance[i])
+        let point = &self.points[i];
+        point.brightness + point.slope * (irradiance - point.irradiance)
     }
+}
+
+/// The guide's cell of an irradiance.
+#[inline(always)]
+fn cell_of(irradiance: f32, first: f32, cells: f32) -> usize {
+    ((irradiance - first) * cells) as usize
 }
 
 /// The operator for one picture.
