@@ -57,6 +57,8 @@ indigo_decl::codes! {
     NOT_CLOSED = "W0329", "(a square whose material has an `internal_medium_name`)";
     /// A turn between neighbouring keys that goes the other, shorter way.
     LONG_TURN = "W0330", "(a `model` with `keyframe`s whose angles about one axis are 0 and 5)";
+    /// An image map on a mesh without texture coordinates.
+    NO_COORDINATES = "W0331", "(a material with an image map, on a mesh that exposes no uv set)";
     /// A name that nothing defines.
     UNKNOWN_NAME = "E0301", "<sphere><center>0 0 0</center><radius>1</radius><material_name>whiet</material_name></sphere>";
     /// A file that cannot be had.

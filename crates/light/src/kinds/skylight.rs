@@ -32,12 +32,13 @@ pub static BLOCK: Block = Block::new(
         ),
         Field::new(
             "model",
-            Kind::Choice(&["hosek", "preetham"]),
+            Kind::Choice(&["hosek", "preetham", "original", "captured-simulation"]),
             Presence::Default("hosek"),
             "The model of the sky: that of L. Hosek and A. Wilkie (2012), or that of A. J. Preetham, \
              P. Shirley and B. Smits (1999), whose zenith is 2 to 3 times brighter. `hosek` is taken \
              over black ground (an albedo of 0, which cannot be set): over bright ground a real sky is some per cent \
-             brighter.",
+             brighter. Of version 3.0 are `original`, which is `preetham`, and `captured-simulation`, for which `hosek` stands in \
+             with a warning.",
         ),
         Field::index("sun_layer", "The number of the sun's `layer_setting`. Of version 1.1."),
         Field::index("sky_layer", "The number of the sky's `layer_setting`. Of version 1.1."),

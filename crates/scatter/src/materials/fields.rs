@@ -137,8 +137,9 @@ pub const EMISSION: Field = Field::new(
     "emission",
     Kind::OneOf(&SPECTRUM),
     Presence::Optional,
-    "What multiplies `base_emission`: a colour (1, 1, 1) changes nothing. Where there is no `base_emission` it is the radiance \
-     itself.",
+    "What multiplies `base_emission`. Over a base of `uniform` it is light of its own, so that `rgb` (1, 1, 1) is white under \
+     D65; a base with a spectrum of its own is tinted by it, and (1, 1, 1) changes nothing. Where there is no `base_emission` it is \
+     the radiance itself.",
 );
 
 /// A map in its place.

@@ -2,7 +2,7 @@
 //! Galaxy", equation 2).
 
 use super::Phase;
-use indigo_decl::{Block, Field, Kind, Later, Node, Presence};
+use indigo_decl::{Block, Field, Kind, Node, Parameter, Presence, StandIn};
 use indigo_diag::Sink;
 use indigo_math::elementary::sin_cos_turns;
 use indigo_math::warp::INV_PI;
@@ -23,7 +23,13 @@ pub static BLOCK: Block = Block::new(
          Values are silently clamped to [-0.99, 0.99].",
     )],
 )
-.with_later(&[Later::new("g", "1.1")])
+.with_parameters(&[Parameter {
+    name: "g",
+    since: "1.1",
+    constant: "g_spectrum",
+    texture: "",
+    stand_in: StandIn::Uniform("0"),
+}])
 .with_example(
     "<henyey_greenstein>
     <g_spectrum><uniform><value>0.9</value></uniform></g_spectrum>

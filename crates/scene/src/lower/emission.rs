@@ -41,14 +41,24 @@ impl<'a> Emission<'a> {
         let texture = kind.node("emission_texture");
         // A map takes the place of a spectrum.
         let colour = kind.node("emission").filter(|_| texture.is_none());
-        let radiance = match (base, colour) {
-            (Some(base), Some(colour)) => read::emission(base, sink).times(&read::factor(colour, sink)),
-            (Some(base), None) => read::emission(base, sink),
-            (None, Some(colour)) => read::emission(colour, sink),
-            (None, None) => Spectrum::uniform(1.0),
-        };
+        let radiance = radiance(base, colour, sink).unwrap_or(Spectrum::uniform(1.0));
         let layer = layers.of(kind.int("layer"));
         (radiance.max() > 0.0).then_some(Self { radiance, texture, layer })
+    }
+}
+
+/// What `base_emission` and `emission` make together; `None` without both. Over an even base, which only says how much there is,
+/// `emission` is light as it is alone: white `rgb` is white under D65. A base with a spectrum of its own is tinted by it.
+pub(super) fn radiance(base: Option<&Node>, colour: Option<&Node>, sink: &mut Sink) -> Option<Spectrum> {
+    let base = base.map(|base| read::emission(base, sink));
+    match (base, colour) {
+        (Some(Spectrum::Uniform(value)), Some(colour)) => {
+            Some(read::emission(colour, sink).times(&Spectrum::Uniform(value)))
+        }
+        (Some(base), Some(colour)) => Some(base.times(&read::factor(colour, sink))),
+        (Some(base), None) => Some(base),
+        (None, Some(colour)) => Some(read::emission(colour, sink)),
+        (None, None) => None,
     }
 }
 

@@ -125,12 +125,13 @@ pub(super) fn mesh_light(
     with_profile(node.span, (profile, None), lamp, shape, errors_before, context)
 }
 
-/// The lamp with an image map; without it where the mesh lacks the uv set, which was reported.
+/// The lamp with an image map; where the mesh lacks the uv set, which was reported, it shows the texel at (0, 0).
 fn with_texture(lamp: AreaLight, texture: Texture, shape: &Shape) -> AreaLight {
-    let Some(uvs) = shape.mesh.uv_sets().get(texture.uv_set as usize) else { return lamp };
+    let uvs = shape.mesh.uv_sets().get(texture.uv_set as usize);
+    let pair = |i: u32| uvs.map_or([0.0; 2], |uvs| uvs[i as usize]);
     // The lamp looks its triangles up in the map, and so is given where they lie there.
     let mapping = texture.mapping();
-    let corner = |i: u32| mapping.of(Vec2::from(uvs[i as usize].map(f64::from)));
+    let corner = |i: u32| mapping.of(Vec2::from(pair(i).map(f64::from)));
     let uvs: Vec<[Vec2<f64>; 3]> = shape.mesh.triangles().iter().map(|t| t.map(corner)).collect();
     lamp.with_texture(texture.with_mapping(Mapping::IDENTITY), &uvs)
 }

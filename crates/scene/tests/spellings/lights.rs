@@ -36,6 +36,15 @@ fn a_model_of_an_emitting_material_is_a_mesh_light() {
     let alone =
         of(&format!("<emission><constant>{BODY}</constant></emission>"), &format!("<model>{PLACE}</model>"));
     assert_same([&meshlight(""), &alone, &model(dimmer, "")]);
+    // Over an even base a colour is light as it is alone.
+    let rgb = |gain: &str, base: &str| {
+        let emission = format!(
+            "{base}<emission><constant><rgb><rgb>8 4 2</rgb><gain>{gain}</gain></rgb></constant></emission>"
+        );
+        of(&emission, &format!("<model>{PLACE}</model>"))
+    };
+    let base = "<base_emission><constant><uniform><value>10</value></uniform></constant></base_emission>";
+    assert_same([&rgb("10", ""), &rgb("1", base), &rgb("1", "")]);
     let map = "<path>a.bmp</path><exponent>1</exponent><b>2</b>";
     let textured = format!(
         "<texture>{map}</texture><emission><texture><texture_index>0</texture_index></texture></emission>"
@@ -331,6 +340,16 @@ fn a_background_may_be_an_emitting_material() {
     };
     let sunsky = "<sunsky><sundir>0 0.6 1</sundir><turbidity>3</turbidity><model>original</model></sunsky>";
     assert_same([&skylight("0 0.6 1"), &background(sunsky, ""), &skylight("0.1 0.6 1")]);
+    let coloured = |gain: &str, base: &str| {
+        let emission = format!("<emission><rgb><rgb>8 4 2</rgb><gain>{gain}</gain></rgb></emission>");
+        background(&format!("<diffuse>{base}{emission}</diffuse>"), "")
+    };
+    let base = "<base_emission><uniform><value>10</value></uniform></base_emission>";
+    assert_same([&coloured("10", ""), &coloured("1", base), &coloured("1", "")]);
+    // A skylight may name them, too.
+    let named = |model: &str| skylight("0 0.6 1").replace("preetham", model);
+    assert_same([&skylight("0 0.6 1"), &named("original"), &named("hosek")]);
+    scene_with(&named("captured-simulation"), &["W0320 the sky of <captured-simulation>"]);
     let captured = sunsky.replace("original", "captured-simulation");
     scene_with(&background(&captured, ""), &["W0320 the sky of <captured-simulation> is not rendered"]);
     let sum = |names: [&str; 2]| {

@@ -141,6 +141,35 @@ fn uv_sets_go_by_number_or_are_the_first() {
     assert!(found[0].1.starts_with("E0307"), "{found:?}");
 }
 
+/// A mesh's text without its texture coordinates.
+fn without_attributes(text: &str) -> String {
+    let mut parts = text.split(" no");
+    let first = parts.next().unwrap_or_default().to_owned();
+    // Of `0="0 1"...` what follows the second quotation mark.
+    parts.fold(first, |all, part| all + part.splitn(3, '"').nth(2).unwrap_or_default())
+}
+
+/// Exporters give objects that were never unwrapped no set at all.
+#[test]
+fn a_map_without_coordinates_is_told_and_shows_one_texel() {
+    let textured =
+        |set: &str| format!("<diffuse><albedo_texture>{set}<path>a.bmp</path></albedo_texture></diffuse>");
+    let bare = |set: &str| {
+        let (head, rest) = MESH.split_once("<expose_uv_set>").expect("sets");
+        let (_, vertices) = rest.rsplit_once("</expose_uv_set>").expect("sets");
+        let vertices = vertices.replace(" uv0", " no0").replace(" uv1", " no1");
+        let [mesh, bare] = [MESH.to_owned(), format!("{head}{}", without_attributes(&vertices))];
+        of(&textured(set)).replace(&mesh, &bare)
+    };
+    let told = ["W0331 a mesh of this material has no texture coordinates"];
+    scene_with(&bare(""), &told);
+    scene_with(&bare("<uv_set_index>0</uv_set_index>"), &told);
+    for named in ["<uv_set>other</uv_set>", "<uv_set_index>1</uv_set_index>"] {
+        let found = findings(&loaded(&bare(named)));
+        assert!(found[0].1.starts_with("E0307"), "{found:?}");
+    }
+}
+
 #[test]
 fn roughness_is_the_width_that_an_exponent_stands_for() {
     // √(2 / (n + 2)) of 6 is a half.
@@ -293,6 +322,15 @@ fn media_go_by_uid_and_have_coefficients_under_new_names() {
     assert_same_told(&NOT_CLOSED, [&old, &scene(by_uid, new), &scene(other, new)]);
     // Both together, as some exporters write, and without `basic`.
     let inside = new.replace("<basic>", "").replace("</basic>", "");
+    let forwards =
+        |g: &str| new.replace("<uniform/>", &format!("<henyey_greenstein>{g}</henyey_greenstein>"));
+    let [old_g, new_g, other_g] = [
+        "<g_spectrum><uniform><value>0.5</value></uniform></g_spectrum>",
+        "<g><constant><uniform><value>0.5</value></uniform></constant></g>",
+        "<g><constant><uniform><value>0.4</value></uniform></constant></g>",
+    ]
+    .map(|g| scene(by_name, &forwards(g)));
+    assert_same_told(&NOT_CLOSED, [&old_g, &new_g, &other_g]);
     let both = scene(&format!("{by_name}{by_uid}"), &inside);
     assert_same_told(&NOT_CLOSED, [&old, &both, &scene(other, &inside)]);
     let found = findings(&loaded(&scene("<internal_medium_uid>46</internal_medium_uid>", new)));

@@ -40,7 +40,7 @@ use report::{Checked, LeftOut, Report};
 use crate::{Outcome, here, process, venv};
 
 const USAGE: &str = "usage: cargo xtask validate [--full] [--only GROUP OR NAME] [--console PROGRAM] [--jobs N] \
-                     [--no-mitsuba] [--resume] [--out FOLDER]";
+                     [--no-mitsuba] [--resume] [--list] [--out FOLDER]";
 
 struct Options {
     form: Form,
@@ -49,6 +49,7 @@ struct Options {
     jobs: usize,
     mitsuba: bool,
     resume: bool,
+    list: bool,
     out: PathBuf,
 }
 
@@ -62,6 +63,7 @@ impl Options {
             jobs: 2 * std::thread::available_parallelism().map_or(1, usize::from),
             mitsuba: true,
             resume: false,
+            list: false,
             out: process::target_dir().join("validation"),
         };
         let mut words = arguments.iter();
@@ -71,6 +73,7 @@ impl Options {
                 "--full" => options.form = Form::Full,
                 "--no-mitsuba" => options.mitsuba = false,
                 "--resume" => options.resume = true,
+                "--list" => options.list = true,
                 "--only" => options.only = Some(value()?.to_lowercase()),
                 "--console" => options.console = Some(value()?.into()),
                 "--jobs" => options.jobs = value()?.parse().map_err(|_| USAGE)?,
@@ -107,6 +110,10 @@ pub fn run(arguments: &[String]) -> Outcome {
     let checks: Vec<Check> = all.into_iter().filter(|check| options.leaves_out(check).is_none()).collect();
     if checks.is_empty() {
         return Err("no check has that name".into());
+    }
+    if options.list {
+        checks.iter().for_each(|check| list(check, options.form));
+        return Ok(());
     }
     let console =
         Console::new(options.console.clone(), &options.out.join("scenes"), options.jobs, options.resume)?;
@@ -146,6 +153,12 @@ pub fn run(arguments: &[String]) -> Outcome {
             "{failed} of {comparisons} comparisons failed, and {broken} checks were not rendered"
         )),
     }
+}
+
+/// A line of a check: what is rendered of it, and with how many samples per pixel.
+fn list(check: &Check, form: Form) {
+    let samples = check.renderers.iter().map(|by| format!("{} {}", by.name(), check.samples(form, *by)));
+    println!("{}: {}: {}", check.group, check.name, samples.collect::<Vec<_>>().join(", "));
 }
 
 fn judged(check: Check, rendered: Rendered, form: Form, threshold: f64) -> Checked {

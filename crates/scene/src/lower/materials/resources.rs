@@ -120,6 +120,17 @@ impl Resources<'_, '_, '_, '_, '_> {
         if let Some((_, set)) = found.or_else(|| first.filter(|_| is_free)) {
             return *set;
         }
+        let is_plain = index.as_ref().map_or(is_free, |index| index.value == 0);
+        if sets.is_empty() && is_plain {
+            // As exporters write objects that were never unwrapped.
+            let message = "a mesh of this material has no texture coordinates: it shows one texel, that at (0, 0), all over";
+            let place = self.context.place(self.user);
+            self.context.sink.push_or_count(
+                Diagnostic::warning(codes::NO_COORDINATES, node.span, message)
+                    .note(format!("the mesh is used at {place}")),
+            );
+            return 0;
+        }
         let name = index.map_or(name, |index| Spanned::new(format!("number {}", index.value), index.span));
         let names: Vec<&str> = sets.iter().map(|(n, _)| n.as_str()).collect();
         let offers =

@@ -50,7 +50,7 @@ fn diffracted_edge() -> Check {
         check = check.row(&what, Quantity::Y, Some([column, column + 1, 0, side]), value);
     }
     // Of the lamp, the noise is in columns that it hardly reaches.
-    check.effort(1024, 7e-2)
+    check.effort(512, 7e-2)
 }
 
 /// The mean over a column that begins so many pixels right of the edge, over that of the lamp.

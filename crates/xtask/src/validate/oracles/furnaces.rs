@@ -155,7 +155,7 @@ fn rooms() -> Vec<Check> {
     for (name, mesh, albedo, chains) in [
         ("ball, albedo 0.5", Mesh::ball(2), 0.5f64, 2),
         ("cube, albedo 0.8", Mesh::cube(1.0), 0.8, 3),
-        ("ball, albedo 0.9", Mesh::ball(2), 0.9, 4),
+        ("ball, albedo 0.9", Mesh::ball(2), 0.9, 3),
     ] {
         let check =
             Check::new(GROUP, format!("shining {name}"), about, room(&mesh, albedo)).unit(AROUND_NITS).flat();
