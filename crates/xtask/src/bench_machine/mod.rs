@@ -16,6 +16,7 @@ use serde_json::{Value, json};
 
 use crate::validate::check::Renderer;
 use crate::validate::console::{Console, write_scene};
+use crate::validate::kept::Keep;
 use crate::{Outcome, here, process};
 use others::OTHERS;
 use series::{Point, SERIES, Series};
@@ -97,7 +98,7 @@ impl Options {
 pub fn run(arguments: &[String]) -> Outcome {
     let options = Options::parse(arguments)?;
     let folder = process::target_dir().join("bench");
-    let console = Console::new(options.console.clone(), &folder, 1, false)?;
+    let console = Console::new(options.console.clone(), &folder, 1, Keep::Nothing)?;
     let path = |ending: &str| folder.join(format!("{}.{ending}", options.name));
     let earlier = options.against.as_deref().map(|against| earlier(against, &path("json"))).transpose()?;
     let wanted = |series: &&Series| options.only.as_ref().is_none_or(|only| series.name == only);

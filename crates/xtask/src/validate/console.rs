@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use super::check::{Check, Form, Renderer};
 use super::codes;
-use super::kept::Stamp;
+use super::kept::{Keep, Stamp};
 use super::picture::Picture;
 use crate::{Outcome, here, process};
 
@@ -27,8 +27,8 @@ pub struct Console {
     pub jobs: usize,
     /// Whether it was built here, so that the commit is known.
     is_built_here: bool,
-    /// Whether pictures that an interrupted run has left are taken.
-    pub resumes: bool,
+    /// What becomes of pictures.
+    pub keep: Keep,
     /// Of the program.
     stamp: Stamp,
 }
@@ -102,7 +102,7 @@ struct Job<'a> {
 
 impl Console {
     /// Builds the release console, if it must be, or takes another program.
-    pub fn new(program: Option<PathBuf>, folder: &Path, jobs: usize, resumes: bool) -> Result<Self, String> {
+    pub fn new(program: Option<PathBuf>, folder: &Path, jobs: usize, keep: Keep) -> Result<Self, String> {
         let is_built_here = program.is_none();
         let program = match program {
             Some(program) => program,
@@ -119,7 +119,7 @@ impl Console {
         let folder = std::fs::canonicalize(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
         let bytes = std::fs::read(&program).map_err(|e| format!("{}: {e}", program.display()))?;
         let stamp = Stamp::of([&bytes[..]]);
-        Ok(Self { program, folder, jobs, is_built_here, resumes, stamp })
+        Ok(Self { program, folder, jobs, is_built_here, keep, stamp })
     }
 
     /// The console's own words, and the commit if it was built here from one.
@@ -199,7 +199,7 @@ impl Console {
         let head = [self.stamp.bytes().to_vec(), samples.to_le_bytes().to_vec(), text];
         let files = check.files.iter().flat_map(|(name, bytes)| [name.as_bytes(), &bytes[..]]);
         let stamp = Stamp::of(head.iter().map(Vec::as_slice).chain(files));
-        if !(stamp.is_kept(&scene.with_extension("stamp"))? && self.resumes) {
+        if !(stamp.is_kept(&scene.with_extension("stamp"))? && self.keep == Keep::Resume) {
             self.clear(check, renderer);
         }
         Ok(())
@@ -213,8 +213,9 @@ impl Console {
         }
     }
 
-    /// Takes all pictures away, once the report is written.
+    /// Takes all pictures away that were kept, once the report is written.
     pub fn clear_all<'a>(&self, checks: impl IntoIterator<Item = &'a Check>) {
+        let checks = checks.into_iter().filter(|_| self.keep != Keep::Nothing);
         for check in checks {
             check.renderers.iter().for_each(|renderer| self.clear(check, *renderer));
         }
@@ -240,6 +241,9 @@ impl Console {
             None => Ok(0),
         };
         let render = read.and_then(|picture| Ok(Render { picture, wrong_codes: wrong_codes?, seconds: 0.0 }));
+        if self.keep == Keep::Nothing {
+            drop((std::fs::remove_file(&linear), std::fs::remove_file(&picture)));
+        }
         render.map_err(fault)
     }
 

@@ -2,6 +2,17 @@
 
 use std::path::Path;
 
+/// What becomes of the pictures of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Keep {
+    /// They go as soon as they were read.
+    Nothing,
+    /// They stay until there is a report, so that an interrupted run can be gone on with.
+    Pictures,
+    /// The same, and those that are there are taken.
+    Resume,
+}
+
 /// What pictures depend on, written beside them: of anything else they are not this run's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stamp(u64);

@@ -35,6 +35,7 @@ use std::time::Instant;
 use check::{Check, Form};
 use console::{Console, Rendered};
 use judge::{FAMILY, Judge, threshold};
+use kept::Keep;
 use report::{Checked, LeftOut, Report};
 
 use crate::{Outcome, here, process, venv};
@@ -115,8 +116,12 @@ pub fn run(arguments: &[String]) -> Outcome {
         checks.iter().for_each(|check| list(check, options.form));
         return Ok(());
     }
-    let console =
-        Console::new(options.console.clone(), &options.out.join("scenes"), options.jobs, options.resume)?;
+    let keep = match options.form {
+        _ if options.resume => Keep::Resume,
+        Form::Full => Keep::Pictures,
+        Form::Quick => Keep::Nothing,
+    };
+    let console = Console::new(options.console.clone(), &options.out.join("scenes"), options.jobs, keep)?;
     if checks.iter().any(|check| check.mitsuba.is_some()) {
         // Before all that takes long: it may need a network.
         venv::for_validation()?;
@@ -145,8 +150,8 @@ pub fn run(arguments: &[String]) -> Outcome {
         version: console.version(),
     };
     report.write(&options.out)?;
-    console.clear_all(report.checked.iter().map(|checked| &checked.check));
     report.say();
+    console.clear_all(report.checked.iter().map(|checked| &checked.check));
     match (report.failures().count(), report.broken().count()) {
         (0, 0) => Ok(()),
         (failed, broken) => Err(format!(

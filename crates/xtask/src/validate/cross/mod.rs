@@ -10,7 +10,7 @@ use serde_json::json;
 
 use super::check::{Check, Form, Quantity, Renderer, TECHNIQUES, Target};
 use super::console::{self, Console, Rendered, Series};
-use super::kept::Stamp;
+use super::kept::{Keep, Stamp};
 use super::picture::Picture;
 use crate::{Outcome, process, venv};
 
@@ -76,7 +76,7 @@ pub fn render(checks: &[Check], renders: &mut [Rendered], console: &Console, for
         let job = json!({"name": check.name, "scene": check.mitsuba, "samples": form.demand(check).samples,
                          "seeds": form.seeds(), "first_seed": first_seed(check), "out": path(check)});
         let stamp = Stamp::of([SCRIPT.as_bytes(), job.to_string().as_bytes()]);
-        if !(stamp.is_kept(&path(check).with_extension("stamp"))? && console.resumes) {
+        if !(stamp.is_kept(&path(check).with_extension("stamp"))? && console.keep == Keep::Resume) {
             drop(std::fs::remove_file(path(check)));
         }
         if !path(check).exists() {
