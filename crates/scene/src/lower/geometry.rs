@@ -1,10 +1,11 @@
 //! Placed objects: models, spheres and planes, with the materials of their slots.
 
+mod shining;
 mod slots;
 
+pub(super) use self::shining::EmittingPart;
 use self::slots::slot_names;
 use super::emission::warn_of_darkness;
-use super::keyframes::warn_of_standing;
 use super::materials::{MaterialTable, UvSets};
 use super::meshes::{Mesh, MeshTable, Part};
 use super::placement;
@@ -46,6 +47,8 @@ pub(super) struct Placed {
     pub(super) slots: Vec<u32>,
     materials: Vec<String>,
     uv_names: Vec<(String, u32)>,
+    /// Whether its mesh stands in for one that is missing.
+    is_stand_in: bool,
 }
 
 impl Placed {
@@ -69,19 +72,6 @@ pub(super) struct Geometry<'a> {
     lights: Vec<Option<u32>>,
     /// Parts of models whose materials emit.
     emitting: Vec<EmittingPart<'a>>,
-}
-
-/// A part of a model whose material emits.
-pub(super) struct EmittingPart<'a> {
-    /// Its number among the objects.
-    pub(super) object: u32,
-    /// Its mesh.
-    pub(super) mesh: u32,
-    pub(super) model: &'a Node,
-    /// Name of the material.
-    pub(super) material: String,
-    /// Names of the mesh's uv sets.
-    pub(super) uv_names: Vec<(String, u32)>,
 }
 
 impl<'a> Geometry<'a> {
@@ -261,27 +251,7 @@ impl<'a> Geometry<'a> {
         };
         closed::warn_if_open(&placed, node.span_of("mesh_name"), meshes, materials, context.sink);
         let count = placed.slots.len() as u32;
-        let emits =
-            |slot: &u32| materials.emission(&placed.materials[*slot as usize], context.sink).is_some();
-        let lit: Vec<u32> = (0..count).filter(emits).collect();
-        if !lit.is_empty() && placed.movement.is_some() {
-            warn_of_standing(node, "what shines", context.sink);
-        }
-        for &slot in &lit {
-            // A mesh of one material is its own part.
-            let mesh =
-                if count == 1 { Some(placed.mesh) } else { meshes.part(placed.mesh, Part::Slot(slot)) };
-            let Some(mesh) = mesh else { continue };
-            let material = placed.slots[slot as usize];
-            let object = self.add(placed.object(mesh), &placed.name, [material], None);
-            self.emitting.push(EmittingPart {
-                object,
-                mesh,
-                model: node,
-                material: placed.materials[slot as usize].clone(),
-                uv_names: placed.uv_names.clone(),
-            });
-        }
+        let lit = self.add_shining(node, &placed, meshes, materials, context);
         let rest = match lit.len() as u32 {
             0 => Some(placed.mesh),
             n if n == count => None,
@@ -350,7 +320,8 @@ impl<'a> Geometry<'a> {
         }
         let (uv_names, materials) =
             (mesh.uv_names.clone(), named.into_iter().map(|(name, _)| name).collect());
-        Some(Placed { mesh: id, transform, movement, name: called, slots, materials, uv_names })
+        let is_stand_in = mesh.is_stand_in;
+        Some(Placed { mesh: id, transform, movement, name: called, slots, materials, uv_names, is_stand_in })
     }
 
     /// The parts of models whose materials emit.

@@ -51,8 +51,8 @@ pub(super) struct MeshTable<'a> {
 /// Which triangles of a mesh are meant.
 #[derive(Clone, PartialEq, Eq, Hash)]
 pub(super) enum Part {
-    /// Those of one material slot, which becomes slot 0.
-    Slot(u32),
+    /// Those of some material slots, which all become slot 0.
+    Of(Vec<u32>),
     /// Those of all slots but some.
     Without(Vec<u32>),
 }
@@ -60,7 +60,7 @@ pub(super) enum Part {
 impl Part {
     fn holds(&self, slot: u32) -> bool {
         match self {
-            Self::Slot(own) => *own == slot,
+            Self::Of(own) => own.contains(&slot),
             Self::Without(others) => !others.contains(&slot),
         }
     }

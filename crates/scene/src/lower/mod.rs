@@ -216,7 +216,6 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
     lights.add_mesh_lights(root, &mut geometry, &mut meshes, &mut materials, context);
     lights.add_rectangles(root, &mut geometry, &mut meshes, &mut materials, context.sink);
     lights.add_portals(root, &geometry, &mut meshes, context);
-    scales::report_idle(root, &mut materials, context.sink);
     root.visit_references(&mut |what, name, span| match what {
         "mesh" => meshes.check_name(name, span, context.sink),
         "medium" => materials.check_medium(name, span, context.sink),

@@ -1,5 +1,6 @@
 //! Scenes in the spelling of later format versions are the same scenes: compared exactly, as they are lowered.
 
+mod alike;
 mod common;
 mod geometry;
 mod lights;

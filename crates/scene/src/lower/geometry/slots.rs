@@ -1,6 +1,6 @@
 //! Which materials the slots of a placed mesh have.
 
-use super::Mesh;
+use super::{MaterialTable, Mesh};
 use crate::codes;
 use indigo_decl::Node;
 use indigo_diag::{Diagnostic, Sink, Span};
@@ -34,4 +34,18 @@ pub(super) fn slot_names(node: &Node, mesh: &Mesh, sink: &mut Sink) -> Vec<(Stri
         );
     }
     slots
+}
+
+/// Slots by their materials. What several slots have in common is one lamp: its flux is that of all of them.
+pub(super) fn by_material(lit: &[u32], names: &[String], materials: &MaterialTable) -> Vec<Vec<u32>> {
+    let mut groups: Vec<Vec<u32>> = vec![];
+    for &slot in lit {
+        let is_of =
+            |group: &&mut Vec<u32>| materials.is_same(&names[group[0] as usize], &names[slot as usize]);
+        match groups.iter_mut().find(is_of) {
+            Some(group) => group.push(slot),
+            None => groups.push(vec![slot]),
+        }
+    }
+    groups
 }
