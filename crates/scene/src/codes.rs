@@ -1,7 +1,7 @@
 //! The stable codes of diagnostics that come from lowering a scene.
 
 indigo_decl::codes! {
-    /// A name that is defined twice, of which the last definition counts, or that every scene has itself.
+    /// A name or uid that is defined twice, of which the last definition counts, or that every scene has itself.
     DUPLICATE_NAME = "W0302", "<material><name>a</name><null_material/></material><material><name>a</name><null_material/></material>";
     /// Something about a mesh, picture or lamp file that its user should know.
     FILE_NOTE = "W0303", "<mesh><name>m</name><embedded></embedded></mesh><model><pos>0 0 0</pos><scale>1</scale><mesh_name>m</mesh_name></model>";

@@ -293,8 +293,8 @@ impl<'a> Geometry<'a> {
     ) -> Option<Placed> {
         let (transform, movement) = placement::placement(node, context.sink);
         let name = node.text("mesh_name");
-        let called = meshes.meant(&name.value);
-        let mesh = meshes.get(&called, name.span, context)?;
+        let called = meshes.called(&name.value);
+        let mesh = meshes.get(&name.value, name.span, context)?;
         let id = mesh.id;
         let (named, slots) = if mesh.is_stand_in {
             if !is_lamp {

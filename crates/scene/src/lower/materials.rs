@@ -113,7 +113,8 @@ impl<'a> MaterialTable<'a> {
             let mut resources = Resources { table: self, context, uv, user, uses_textures: false };
             let material = Material::build(kind, &mut resources);
             let uses_textures = resources.uses_textures;
-            (self.add(material, &name.value), uses_textures)
+            let called = node.map_or_else(String::new, |node| node.text("name").value);
+            (self.add(material, &called), uses_textures)
         };
         if uses_textures {
             self.textured.insert(key(&name.value, uv), id);
@@ -266,8 +267,8 @@ impl<'a> MaterialTable<'a> {
     /// Materials that nothing is made of, and media that none of them names, have no effect, whatever
     /// they hold.
     pub(super) fn disregard_unused(&self) {
-        let asked_for = |n: &&Node| self.asked_for.contains(&n.text("name").value);
-        self.names.nodes().filter(|n| !asked_for(n)).for_each(Node::disregard);
+        let unused = self.names.entries().filter(|(key, _)| !self.asked_for.contains(*key));
+        unused.for_each(|(_, node)| node.disregard());
         self.media.disregard_unused();
     }
 

@@ -22,12 +22,14 @@ pub(super) struct MediumTable<'a> {
 impl<'a> MediumTable<'a> {
     pub(super) fn new(root: &'a Node, sink: &mut Sink) -> Self {
         let names = Names::new(root, "medium", sink);
-        let keyed = |n: &'a Node| ((n.int("precedence"), n.span.source, n.span.start), n);
-        let mut nodes: Vec<_> = names.nodes().map(keyed).collect();
+        let keyed = |(key, n): (&str, &'a Node)| {
+            ((n.int("precedence"), n.span.source, n.span.start), (key.to_owned(), n))
+        };
+        let mut nodes: Vec<_> = names.entries().map(keyed).collect();
         // Of equal precedence, the one defined later wins: by file, then by place.
-        nodes.sort_by_key(|(key, _)| *key);
+        nodes.sort_by_key(|(order, _)| *order);
         let mut table = Self { names, ids: HashMap::new(), media: vec![Medium::AIR], asked_for: vec![false] };
-        for (_, node) in nodes {
+        for (_, (key, node)) in nodes {
             let Some(id) = MediumId::new(table.media.len()) else {
                 sink.push(Diagnostic::error(
                     codes::TOO_MANY_MEDIA,
@@ -36,7 +38,7 @@ impl<'a> MediumTable<'a> {
                 ));
                 break;
             };
-            table.ids.insert(node.text("name").value, id);
+            table.ids.insert(key, id);
             table.media.push(Medium::AIR);
             table.asked_for.push(false);
         }
@@ -79,8 +81,8 @@ impl<'a> MediumTable<'a> {
 
     /// Media that no material asked for have no effect, whatever they hold.
     pub(super) fn disregard_unused(&self) {
-        for node in self.names.nodes() {
-            let id = self.ids.get(&node.text("name").value);
+        for (key, node) in self.names.entries() {
+            let id = self.ids.get(key);
             if !id.is_some_and(|id| self.asked_for[id.index()]) {
                 node.disregard();
             }

@@ -94,9 +94,15 @@ impl<'a> MeshTable<'a> {
         self.read.get(&self.meant(name))?.as_ref()
     }
 
-    /// The name of the mesh that a reference means, which may refer by uid.
-    pub(super) fn meant(&self, reference: &str) -> String {
+    /// The key of the mesh that a reference means, which may refer by uid.
+    fn meant(&self, reference: &str) -> String {
         self.names.meant(reference).to_owned()
+    }
+
+    /// What a mesh is called that a reference means.
+    pub(super) fn called(&self, reference: &str) -> String {
+        let name = self.names.get(reference).map(|node| node.text("name").value);
+        name.unwrap_or_else(|| reference.to_owned())
     }
 
     /// Reports a name that no mesh has.
@@ -199,7 +205,7 @@ impl<'a> MeshTable<'a> {
 
     /// Meshes that nothing places have no effect, whatever they hold.
     pub(super) fn disregard_unused(&self) {
-        self.names.nodes().for_each(Node::disregard);
+        self.names.entries().for_each(|(_, node)| node.disregard());
     }
 
     /// All meshes in the order of their numbers.

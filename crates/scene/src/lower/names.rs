@@ -6,11 +6,14 @@ use indigo_diag::{Candidates, Diagnostic, Sink, Span};
 use std::collections::{HashMap, HashSet};
 
 /// Elements of one kind by name.
+///
+/// Each is known by a key: its name or, where another of that name is meant by it, a reference by its uid.
 pub(super) struct Names<'a> {
     what: &'static str,
     by_name: HashMap<String, &'a Node>,
-    /// Names by uid.
-    by_uid: HashMap<String, String>,
+    by_uid: HashMap<String, &'a Node>,
+    /// Those of another's name, which only their uids mean.
+    shadowed: Vec<(String, &'a Node)>,
     /// Names that were looked for in vain, each of which is reported once.
     missed: HashSet<String>,
     /// All names, made ready when the first hint is wanted.
@@ -25,14 +28,20 @@ impl<'a> Names<'a> {
     /// The elements `what` of a scene. Where a name or uid is defined twice the last definition counts.
     pub(super) fn new(root: &'a Node, what: &'static str, sink: &mut Sink) -> Self {
         let mut by_name: HashMap<String, &Node> = HashMap::new();
-        let mut by_uid = HashMap::new();
+        let mut by_uid: HashMap<String, &Node> = HashMap::new();
+        let mut hidden = vec![];
         for node in root.nodes(what) {
             let name = node.text("name");
-            if let Some(uid) = node.opt_text("uid") {
-                by_uid.insert(uid.value, name.value.clone());
+            if let Some(uid) = node.opt_text("uid")
+                && let Some(before) = by_uid.insert(uid.value.clone(), node)
+                && before.text("name").value != name.value
+            {
+                // Of one name it is told below.
+                let message = format!("uid {} is of more than one {what}; the last one counts", uid.value);
+                sink.push(Diagnostic::warning(codes::DUPLICATE_NAME, uid.span, message));
             }
             if let Some(before) = by_name.insert(name.value.clone(), node) {
-                before.disregard();
+                hidden.push(before);
                 sink.push(Diagnostic::warning(
                     codes::DUPLICATE_NAME,
                     name.span,
@@ -40,13 +49,33 @@ impl<'a> Names<'a> {
                 ));
             }
         }
-        Self { what, by_name, by_uid, missed: HashSet::new(), candidates: None }
+        let key = |node: &'a Node| {
+            let uid = node.opt_text("uid")?.value;
+            by_uid.get(&uid).is_some_and(|meant| std::ptr::eq(*meant, node)).then(|| format!("{UID}{uid}"))
+        };
+        let mut shadowed = vec![];
+        for node in hidden {
+            match key(node) {
+                Some(key) => shadowed.push((key, node)),
+                None => node.disregard(),
+            }
+        }
+        Self { what, by_name, by_uid, shadowed, missed: HashSet::new(), candidates: None }
     }
 
-    /// The name that a reference means, which may refer by uid.
+    /// The key of what a reference means, which may refer by uid.
     pub(super) fn meant<'n>(&'n self, reference: &'n str) -> &'n str {
-        let uid = reference.strip_prefix(UID).filter(|_| !self.by_name.contains_key(reference));
-        uid.and_then(|uid| self.by_uid.get(uid)).map_or(reference, String::as_str)
+        let Some(node) = self.of_uid(reference) else { return reference };
+        match self.by_name.get_key_value(&node.text("name").value) {
+            Some((name, named)) if std::ptr::eq(*named, node) => name,
+            _ => reference,
+        }
+    }
+
+    /// What a reference by uid means.
+    fn of_uid(&self, reference: &str) -> Option<&'a Node> {
+        let uid = reference.strip_prefix(UID).filter(|_| !self.by_name.contains_key(reference))?;
+        self.by_uid.get(uid).copied()
     }
 
     /// The element of a name; `None` after reporting that there is none.
@@ -77,11 +106,12 @@ impl<'a> Names<'a> {
 
     /// The element of a name, if there is one; nothing is reported.
     pub(super) fn get(&self, name: &str) -> Option<&'a Node> {
-        self.by_name.get(self.meant(name)).copied()
+        self.of_uid(name).or_else(|| self.by_name.get(name).copied())
     }
 
-    /// All elements.
-    pub(super) fn nodes(&self) -> impl Iterator<Item = &'a Node> {
-        self.by_name.values().copied()
+    /// All elements that something can mean, with their keys.
+    pub(super) fn entries(&self) -> impl Iterator<Item = (&str, &'a Node)> {
+        let named = self.by_name.iter().map(|(name, node)| (name.as_str(), *node));
+        named.chain(self.shadowed.iter().map(|(key, node)| (key.as_str(), *node)))
     }
 }

@@ -63,3 +63,54 @@ fn what_a_scale_or_profile_is_of_may_be_on_no_triangle() {
         assert!(only.starts_with("E0301 there is no material named kk"), "{only}");
     }
 }
+
+#[test]
+fn a_uid_means_its_own_element_though_another_has_its_name() {
+    let of = |name: &str, uid: u32, albedo: &str| {
+        let kind = GREY.replace("0.25", albedo);
+        format!("<material><uid>{uid}</uid><name>{name}</name>{kind}</material>")
+    };
+    let scene = |second: &str, uids: [u32; 2]| {
+        let uids = uids.map(|uid| format!("<material_uid>{uid}</material_uid>")).concat();
+        let model = model(&format!("<materials>{uids}</materials>"));
+        format!("{CAMERA}{LIGHT}{MESH}{model}{}{}", of("m", 1, "0.1"), of(second, 2, "0.6"))
+            + &material("n", GREY).replace(">n<", if second == "n" { ">x<" } else { ">n<" })
+    };
+    let told = ["W0302 material m is defined more than once"];
+    let apart = format!("{:?}", scene_with(&scene("n", [1, 2]), &[]).materials());
+    let alike = scene("m", [1, 2]);
+    assert_eq!(format!("{:?}", scene_with(&alike, &told).materials()), apart);
+    assert_same_told(&told, [&alike, &alike, &scene("m", [2, 1])]);
+}
+
+#[test]
+fn meshes_and_media_of_one_name_are_told_apart_by_uid() {
+    let both = material("m", GREY) + &material("n", GREY);
+    let moved = MESH.replace("<uid>7<", "<uid>8<").replace("pos=\"0 0 0\"", "pos=\"0 0 5\"");
+    let scene = |uid: u32| {
+        let model =
+            MODEL.replace("<mesh_name>tri</mesh_name>", &format!("<geometry_uid>{uid}</geometry_uid>"));
+        let model = model.replace("model>", "model2>");
+        dump(&scene_with(
+            &format!("{CAMERA}{LIGHT}{both}{MESH}{moved}{model}"),
+            &["W0302 mesh tri is defined more than once"],
+        ))
+    };
+    assert_ne!(scene(7), scene(8));
+    let medium = |name: &str, uid: u32, ior: f64| {
+        format!("<medium><name>{name}</name><uid>{uid}</uid><basic><ior>{ior}</ior></basic></medium>")
+    };
+    let glass = |media: &str| {
+        let kind = "<specular><internal_medium_uid>6</internal_medium_uid></specular>";
+        let glass = material("m", kind) + &material("n", GREY);
+        loaded(&format!("{CAMERA}{LIGHT}{MESH}{MODEL}{glass}{media}"))
+    };
+    let [apart, alike] =
+        ["b", "a"].map(|name| glass(&(medium("a", 6, 1.7) + &medium(name, 7, 1.3))).scene.expect("a scene"));
+    assert_eq!(format!("{:?}", alike.media), format!("{:?}", apart.media));
+    let twice = findings(&glass(&(medium("a", 6, 1.7) + &medium("b", 6, 1.3))));
+    assert!(
+        twice.iter().any(|(_, said)| said.starts_with("W0302 uid 6 is of more than one medium")),
+        "{twice:?}"
+    );
+}

@@ -31,10 +31,11 @@ impl MaterialTable<'_> {
     /// Reports materials that nothing uses and that are made of themselves. Those in use were found when built.
     pub(in crate::lower) fn check_unused(&self, sink: &mut Sink) {
         let mut done: HashSet<String> = self.asked_for.clone();
-        let mut nodes: Vec<&Node> = self.names.nodes().collect();
-        nodes.sort_by_key(|n| (n.span.source, n.span.start));
-        for node in nodes {
-            self.walk(&node.text("name"), |name| done.insert(name.to_owned()), sink);
+        let mut entries: Vec<(&str, &Node)> = self.names.entries().collect();
+        entries.sort_by_key(|(_, n)| (n.span.source, n.span.start));
+        for (key, node) in entries {
+            let named = Spanned::new(key.to_owned(), node.span_of("name"));
+            self.walk(&named, |name| done.insert(name.to_owned()), sink);
         }
     }
 
