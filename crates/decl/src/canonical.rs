@@ -22,6 +22,41 @@ impl Node {
             element.children.extend(slots.iter().map(|slot| slot.to_element(field, rewrite)));
         }
         element.children.extend(self.alternative.iter().map(|chosen| chosen.to_element(rewrite)));
+        if self.alternative.is_none() && self.alternative_reported {
+            // Without it nothing would be there to be read.
+            let stand_in = self.block.alternatives.and_then(|alternatives| alternatives.written);
+            element.children.extend(stand_in.map(|stand_in| stand_in.to_element(self.span)));
+        }
+        element
+    }
+}
+
+/// An element to be written, as it is declared.
+#[derive(Clone, Copy, Debug)]
+pub struct Written {
+    /// Name of the element.
+    pub name: &'static str,
+    /// Its text; empty for none.
+    pub text: &'static str,
+    /// The elements inside.
+    pub children: &'static [Written],
+}
+
+impl Written {
+    /// An element of a text, such as that of a number.
+    pub const fn text(name: &'static str, text: &'static str) -> Self {
+        Self { name, text, children: &[] }
+    }
+
+    /// An element of others.
+    pub const fn of(name: &'static str, children: &'static [Self]) -> Self {
+        Self { name, text: "", children }
+    }
+
+    fn to_element(self, span: Span) -> Element {
+        let mut element = Element::new(self.name, span);
+        element.text = Spanned::new(self.text.into(), span);
+        element.children = self.children.iter().map(|child| child.to_element(span)).collect();
         element
     }
 }

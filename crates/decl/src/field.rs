@@ -1,5 +1,6 @@
 //! The tables that declare elements.
 
+use crate::canonical::Written;
 use crate::parameter::Parameter;
 
 /// An element with children, declared.
@@ -126,12 +127,14 @@ pub struct Alternatives {
     pub later: &'static [Later],
     /// What stands in for those, in words; lowering finds no choice then.
     pub stand_in: &'static str,
+    /// The same as the element that would be written for it.
+    pub written: Option<Written>,
 }
 
 impl Alternatives {
     /// Exactly one of some blocks, to be completed with struct update syntax.
     pub const fn new(what: &'static str, blocks: &'static [&'static Block]) -> Self {
-        Self { what, blocks, optional: false, implied: None, later: &[], stand_in: "" }
+        Self { what, blocks, optional: false, implied: None, later: &[], stand_in: "", written: None }
     }
 }
 

@@ -27,6 +27,7 @@ pub mod resolver;
 pub mod value;
 
 pub use bind::{UID, bind, report_unread};
+pub use canonical::Written;
 pub use element::{Attribute, Element};
 pub use field::{Alternatives, Block, Field, Group, Kind, Later, Presence, Range};
 pub use meaning::Meaning;

@@ -1,12 +1,16 @@
 //! The declaration of `material`.
 
 use super::KINDS_AND_LATER;
-use indigo_decl::{Alternatives, Block, Field, Kind, Later, Presence};
+use indigo_decl::{Alternatives, Block, Field, Kind, Later, Presence, Written};
 
 /// The kinds that a material may be of.
 pub const MATERIAL_KIND: Alternatives = Alternatives {
     later: &[Later::new("fabric", "4.0"), Later::new("external", "3.0")],
     stand_in: "a grey diffuse surface",
+    written: Some(Written::of(
+        "diffuse",
+        &[Written::of("albedo_spectrum", &[Written::of("uniform", &[Written::text("value", "0.5")])])],
+    )),
     ..Alternatives::new("kind of material", KINDS_AND_LATER)
 };
 

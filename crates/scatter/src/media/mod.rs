@@ -9,7 +9,7 @@ pub mod epidermis;
 mod skin;
 
 use crate::phase::{Lobe, PhaseFunction, uniform};
-use indigo_decl::{Alternatives, Block, Field, Kind, Later, Node, Presence, Range};
+use indigo_decl::{Alternatives, Block, Field, Kind, Later, Node, Presence, Range, Written};
 use indigo_diag::Sink;
 use indigo_math::{Float, Real};
 use indigo_spectrum::{SampledSpectrum, SampledWavelengths, Spectrum};
@@ -184,6 +184,7 @@ pub static MEDIUM: Block = Block::new(
     implied: Some(&basic::BLOCK),
     later: &[Later::new("atmosphere", "3.0"), Later::new("fast_sss", "3.0")],
     stand_in: "air",
+    written: Some(Written::of("basic", &[Written::text("ior", "1")])),
     ..Alternatives::new("kind of medium", KINDS)
 })
 .with_later(&[

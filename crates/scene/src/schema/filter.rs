@@ -1,12 +1,13 @@
 //! Reconstruction filters, declared.
 
-use indigo_decl::{Alternatives, Block, Field, Kind, Later, Presence};
+use indigo_decl::{Alternatives, Block, Field, Kind, Later, Presence, Written};
 
 const KINDS: &[&Block] = &[&BOX, &GAUSSIAN, &MN_CUBIC];
 
 const CHOICE: Alternatives = Alternatives {
     later: &[Later::new("radial", "4.0"), Later::new("sharp", "4.0")],
     stand_in: "box",
+    written: Some(Written::of("box", &[])),
     ..Alternatives::new("filter", KINDS)
 };
 

@@ -1,6 +1,6 @@
 //! Tone mapping, declared.
 
-use indigo_decl::{Alternatives, Block, Field, Kind, Later, Presence, Range};
+use indigo_decl::{Alternatives, Block, Field, Kind, Later, Presence, Range, Written};
 
 /// The declaration of `tonemapping`.
 pub static TONEMAPPING: Block = Block::new(
@@ -12,6 +12,10 @@ pub static TONEMAPPING: Block = Block::new(
 .with_alternatives(Alternatives {
     later: &[Later::new("filmic", "4.0")],
     stand_in: "reinhard 4, 1.2, 6",
+    written: Some(Written::of(
+        "reinhard",
+        &[Written::text("pre_scale", "4"), Written::text("post_scale", "1.2"), Written::text("burn", "6")],
+    )),
     ..Alternatives::new("tone mapping", &[&LINEAR, &REINHARD, &CAMERA])
 })
 .with_example(

@@ -58,7 +58,7 @@ pub fn loaded(elements: &str) -> Loaded {
 }
 
 /// The same in the form that this program writes, of which no more than `told` is told.
-fn canonical(elements: &str, told: &[&str]) -> Loaded {
+pub fn canonical(elements: &str, told: &[&str]) -> Loaded {
     let scene = beside(format!("<scene>{SETTINGS}{elements}</scene>"));
     let written = load_canonical("scene.igs", &LoadOptions::new(&scene), "A scene ---- anew-", &|path, _| {
         Some(path.into())

@@ -7,3 +7,4 @@ mod lights;
 mod materials;
 mod real;
 mod shining;
+mod stand_ins;

@@ -1,0 +1,80 @@
+//! What stands in for kinds of later versions, in the scene and where it is written anew.
+
+use super::common::*;
+use indigo_decl::{Alternatives, Block, Kind};
+use indigo_scene::schema::SCENE;
+
+/// The names of all blocks with kinds of later versions, and those kinds.
+#[derive(Default)]
+struct Choices {
+    seen: Vec<&'static str>,
+    found: Vec<(&'static str, &'static Alternatives)>,
+}
+
+impl Choices {
+    fn add_all(&mut self, block: &'static Block) {
+        if self.seen.contains(&block.doc) {
+            return;
+        }
+        self.seen.push(block.doc);
+        for field in block.fields {
+            match field.kind {
+                Kind::OneOf(alternatives) => self.add(field.name, alternatives),
+                Kind::Block(inner) => self.add_all(inner),
+                _ => {}
+            }
+        }
+        if let Some(alternatives) = &block.alternatives {
+            self.add(block.name, alternatives);
+        }
+    }
+
+    fn add(&mut self, name: &'static str, alternatives: &'static Alternatives) {
+        if !alternatives.later.is_empty() {
+            self.found.push((name, alternatives));
+        }
+        alternatives.blocks.iter().for_each(|block| self.add_all(block));
+    }
+}
+
+/// A scene with a later kind of something.
+fn with(what: &str, kind: &str) -> String {
+    let rest = format!("{CAMERA}{LIGHT}{MESH}{MODEL}{}", material("n", GREY));
+    let grey = material("m", GREY);
+    match what {
+        "material" => rest + &material("m", kind),
+        "medium" => {
+            let glass = "<specular><internal_medium_name>glass</internal_medium_name></specular>";
+            format!("{rest}{}<medium><name>glass</name>{kind}</medium>", material("m", glass))
+        }
+        "tonemapping" => format!("{rest}{grey}<tonemapping>{kind}</tonemapping>"),
+        "splat_filter" | "downsize_filter" => {
+            format!("{rest}{grey}<renderer_settings><{what}>{kind}</{what}></renderer_settings>")
+        }
+        _ => panic!("no scene for <{what}>"),
+    }
+}
+
+#[test]
+fn what_stands_in_is_written_where_a_scene_is_written_anew() {
+    let mut choices = Choices::default();
+    choices.add_all(&SCENE);
+    let names: Vec<&str> = choices.found.iter().map(|(name, _)| *name).collect();
+    assert!(
+        ["material", "medium", "tonemapping", "splat_filter"].iter().all(|n| names.contains(n)),
+        "{names:?}"
+    );
+    let told = ["W0102", "W0103 <tonemapping>", "W0103 <renderer_settings>", "W0329"];
+    for (what, alternatives) in choices.found {
+        for later in alternatives.later {
+            let elements = with(what, &format!("<{}/>", later.name));
+            let said = findings(&loaded(&elements));
+            let named = format!("W0102 <{}> is of a later format version ({})", later.name, later.since);
+            assert!(said.iter().any(|(_, said)| said.starts_with(&named)), "{said:?}");
+            let [scene, anew] = [loaded(&elements), canonical(&elements, &told)]
+                .map(|loaded| loaded.scene.expect("a scene without errors"));
+            assert_eq!(dump(&scene), dump(&anew), "<{}> in <{what}>", later.name);
+            assert_eq!(format!("{:?}", scene.picture), format!("{:?}", anew.picture), "<{}>", later.name);
+        }
+    }
+}
