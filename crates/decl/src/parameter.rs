@@ -142,9 +142,10 @@ fn stand_in(child: &Element, form: &Element, parameter: &Parameter, sink: &mut S
         codes::LATER_ELEMENT,
         form.span,
         format!(
-            "<{}> in <{}> is of a later format version and not rendered: {}",
+            "<{}> in <{}> is of a later format version ({}) and not rendered: {}",
             form.name,
             child.name,
+            parameter.since,
             parameter.stand_in.words()
         ),
     ));

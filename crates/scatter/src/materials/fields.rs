@@ -188,4 +188,5 @@ pub const LATER: &[Later] = &[
     Later::new("shadow_catcher", "4.0").unless("false"),
     Later::new("arch_glass", "3.0").unless("false"),
     Later::new("single_face", "3.0").unless("false"),
+    Later::new("absorption_layer_transmittance", "3.0"),
 ];

@@ -62,7 +62,7 @@ fn shining<'a>(kind: &'a Node, materials: &MaterialTable<'a>, context: &mut Cont
             // A name that is not there is reported with all others.
             None => {}
             Some(part) => {
-                let message = "a <sum> in a <sum> is not rendered: it is left out";
+                let message = "a <sum> (of version 4.0) in a <sum> is not rendered: it is left out";
                 context.sink.push(Diagnostic::warning(codes::STANDS_IN, part.span, message));
             }
         }

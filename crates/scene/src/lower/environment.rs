@@ -59,7 +59,7 @@ pub(super) fn skylight(
     let model = node.text("model").value;
     let is_preetham = ["preetham", "original"].contains(&model.as_str());
     if model == "captured-simulation" {
-        let message = "the sky of <captured-simulation> is not rendered: that of Hosek and Wilkie stands in";
+        let message = "the sky of <captured-simulation> (of version 3.0) is not rendered: that of Hosek and Wilkie stands in";
         context.sink.push(Diagnostic::warning(codes::STANDS_IN, node.span_of("model"), message));
     }
     let is_outside = node.bool("extra_atmospheric");

@@ -323,12 +323,12 @@ fn report_stand_in(kind: &Node, other: &Spanned<String>, sink: &mut Sink) {
         kind.span,
         if kind.block.name == "coating" {
             format!(
-                "a <coating> is rendered over <diffuse>, and with <interference> over a <phong> of <nk_data>: {} stands in without its coat",
+                "a <coating> (of version 3.0) is rendered over <diffuse>, and with <interference> over a <phong> of <nk_data>: {} stands in without its coat",
                 other.value
             )
         } else {
             format!(
-                "<{}> is of a later format version and not rendered: {} stands in",
+                "<{}> is of a later format version (4.0) and not rendered: {} stands in",
                 kind.block.name, other.value
             )
         },

@@ -364,7 +364,8 @@ fn what_is_not_rendered_is_named_once_with_what_stands_in() {
     let with_shader = of(shader);
     let grey =
         of("<diffuse><albedo_spectrum><uniform><value>0.5</value></uniform></albedo_spectrum></diffuse>");
-    let warning = "W0102 <shader> in <albedo> is of a later format version and not rendered: 0.5 stands in";
+    let warning =
+        "W0102 <shader> in <albedo> is of a later format version (1.1) and not rendered: 0.5 stands in";
     assert_eq!(dump(&scene_with(&with_shader, &[warning])), dump(&scene_with(&grey, &[])));
     // A hundred materials of a kind that is not there are one warning.
     let many: String = (0..100).map(|i| material(&format!("x{i}"), "<fabric/>")).collect();
