@@ -78,3 +78,19 @@ fn what_stands_in_is_written_where_a_scene_is_written_anew() {
         }
     }
 }
+
+#[test]
+fn a_picture_of_the_surroundings_has_a_stand_in() {
+    let background = |path: &str| {
+        format!(
+            "{CAMERA}<background_settings><background_material><material><name>b</name><diffuse><emission><texture><path>{path}</path><exponent>1</exponent></texture></emission></diffuse></material></background_material></background_settings>"
+        )
+    };
+    let settings = "<renderer_settings><placeholders>true</placeholders></renderer_settings>";
+    let double = "W0103 <renderer_settings> is given more than once";
+    let missing = "W0326 cannot read none.hdr";
+    let scene = scene_with(&(background("none.hdr") + settings), &[double, missing]);
+    assert!(surroundings(&scene) > 0.0);
+    let found = findings(&loaded(&background("none.hdr")));
+    assert!(found[0].1.starts_with("E0302"), "{found:?}");
+}
