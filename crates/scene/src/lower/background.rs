@@ -30,6 +30,7 @@ pub(super) fn lights(
     material.disregard_fields(&["name", "uid"]);
     let Some(kind) = material.alternative() else { return vec![] };
     let mut lights = vec![];
+    let mut colours = vec![];
     for (kind, weight) in shining(kind, materials, context) {
         if kind.block.name == "sunsky" {
             if weight != 1.0 || scale.is_some() {
@@ -37,14 +38,22 @@ pub(super) fn lights(
                 context.sink.push(Diagnostic::warning(codes::IDLE_SCALE, kind.span, message));
             }
             lights.extend(environment::skylight(kind, materials, context));
+            colours.resize(lights.len(), None);
             continue;
         }
         let layer = materials.layer(if kind.block.declares("layer") { kind.int("layer") } else { 0 });
-        let even = even_light(kind, weight, layer.colour, context);
+        let even = even_light(kind, weight, layer.colour.is_some(), context);
         lights.extend(even.map(|even| (even, layer.group)));
+        colours.resize(lights.len(), layer.colour);
     }
     if let Some((node, luminance)) = scale {
         scale_to(&mut lights, luminance, node, context);
+    }
+    // What is scaled is the light before its layer, as of lamps.
+    for ((light, _), colour) in lights.iter_mut().zip(&colours) {
+        if let (DistantLight::Background(even), Some(colour)) = (light, colour) {
+            even.0 = even.0.times(colour);
+        }
     }
     lights
 }
@@ -70,22 +79,15 @@ fn shining<'a>(kind: &'a Node, materials: &MaterialTable<'a>, context: &mut Cont
     parts
 }
 
-/// What a material emits, all round.
-fn even_light(
-    kind: &Node,
-    weight: f64,
-    colour: Option<Spectrum>,
-    context: &mut Context,
-) -> Option<DistantLight> {
+/// What a material emits, all round, before the colour of its layer, if that has one.
+fn even_light(kind: &Node, weight: f64, is_coloured: bool, context: &mut Context) -> Option<DistantLight> {
     // Of a material that surrounds everything only the emission is to be seen.
     kind.disregard();
     let field = |name: &str| kind.block.declares(name).then(|| kind.node(name)).flatten();
     let base = field("base_emission");
-    let layer = colour.unwrap_or(Spectrum::uniform(1.0));
     if let Some(texture) = field("emission_texture") {
-        let gain =
-            base.map_or(Spectrum::uniform(1.0), |base| read::emission(base, context.sink)).times(&layer);
-        if !matches!(gain, Spectrum::Uniform(_)) {
+        let gain = base.map_or(Spectrum::uniform(1.0), |base| read::emission(base, context.sink));
+        if is_coloured || !matches!(gain, Spectrum::Uniform(_)) {
             let message = "the surroundings have the colours of their picture: those of <base_emission> and of the layer are left out";
             context.sink.push(Diagnostic::warning(codes::STANDS_IN, kind.span, message));
         }
@@ -98,7 +100,19 @@ fn even_light(
         (Some(only), None) | (None, Some(only)) => read::emission(only, context.sink),
         (None, None) => return None,
     };
-    Some(Background(radiance.scaled(weight).times(&layer)).into())
+    Some(Background(radiance.scaled(weight)).into())
+}
+
+/// Tells of a kind that is made of other materials, whose light is not looked for.
+fn warn_of_parts(kind: &Node, context: &mut Context) {
+    if kind.block.fields.iter().any(|field| matches!(field.kind, Kind::Reference("material"))) {
+        let what = format!("as a background a <{}>", kind.block.name);
+        let message = format!("{what} gives no light but its own: what it is made of is left out");
+        context.sink.push(
+            Diagnostic::warning(codes::NOT_EMITTING, kind.span, message)
+                .hint("give it a <base_emission>, or take the material that emits"),
+        );
+    }
 }
 
 /// A picture of the surroundings, given as a texture.

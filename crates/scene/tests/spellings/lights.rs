@@ -237,6 +237,19 @@ fn layers_are_of_surroundings_too() {
 }
 
 #[test]
+fn surroundings_are_scaled_before_they_have_the_colour_of_their_layer() {
+    let kind = format!("<diffuse><base_emission>{BODY}</base_emission></diffuse>");
+    let scale = "<emission_scale><material_name>background</material_name><measure>luminance</measure><value>100</value></emission_scale>";
+    let red = "<layer_setting><layer_scale><rgb><rgb>1 0 0</rgb></rgb></layer_scale></layer_setting>";
+    let coloured = |scale: &str| {
+        let plain = surroundings(&scene_with(&background(&kind, scale), &[]));
+        surroundings(&with_layers(&background(&kind, scale), red, &[])) / plain
+    };
+    let (own, scaled) = (coloured(""), coloured(scale));
+    assert!((scaled / own - 1.0).abs() < 1e-6, "{scaled} instead of {own}");
+}
+
+#[test]
 fn of_a_mesh_with_several_materials_the_emitting_parts_are_lamps() {
     let lit = GREY.replace("</diffuse>", &format!("<base_emission>{BODY}</base_emission></diffuse>"));
     let scene = |n: &str| format!("{CAMERA}{LIGHT}{MESH}{MODEL}{}{}", material("m", GREY), material("n", n));
