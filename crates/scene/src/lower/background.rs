@@ -4,7 +4,7 @@ use super::Context;
 use super::environment::{self, Surroundings};
 use super::materials::MaterialTable;
 use crate::codes;
-use indigo_decl::Node;
+use indigo_decl::{Kind, Node};
 use indigo_diag::Diagnostic;
 use indigo_light::DistantLight;
 use indigo_light::kinds::Distant;
@@ -98,7 +98,10 @@ fn even_light(kind: &Node, weight: f64, is_coloured: bool, context: &mut Context
             read::emission(base, context.sink).times(&read::factor(colour, context.sink))
         }
         (Some(only), None) | (None, Some(only)) => read::emission(only, context.sink),
-        (None, None) => return None,
+        (None, None) => {
+            warn_of_parts(kind, context);
+            return None;
+        }
     };
     Some(Background(radiance.scaled(weight)).into())
 }

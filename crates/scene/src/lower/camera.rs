@@ -105,7 +105,7 @@ fn warn_without_lens(node: &Node, kind: CameraKind, sink: &mut Sink) {
 /// The camera's place in the world; the origin where that is wrong.
 pub(super) fn position(node: &Node, sink: &mut Sink) -> Vec3d {
     let motion = keyframes::motion(node);
-    keyframes::warn_of_long_turns(node, sink);
+    keyframes::warn_of_keys(node, sink);
     let is_near = |pose: &Pose| pose.pos.to_array().iter().all(|x| x.abs() <= FARTHEST);
     if motion.poses(1.0).iter().all(is_near) {
         return motion.at(0.0).pos;

@@ -11,7 +11,7 @@ pub(super) fn motion(node: &Node) -> Motion {
     let keys: Vec<(f64, Pose)> =
         node.nodes("keyframe").map(|key| (key.real("time"), of_keyframe(key))).collect();
     if !keys.is_empty() {
-        // Later versions write one or the other.
+        // It is told beside what else is wrong with them.
         node.disregard_field("pos");
     }
     let still = || Pose { pos: node.vec3("pos").into(), turn: Pose::NO_TURN };
@@ -28,8 +28,23 @@ pub(super) fn warn_of_standing(node: &Node, why: &str, sink: &mut Sink) {
     ));
 }
 
+/// Tells of what is odd about the keyframes of something.
+pub(super) fn warn_of_keys(node: &Node, sink: &mut Sink) {
+    warn_of_pos(node, sink);
+    warn_of_long_turns(node, sink);
+}
+
+/// Tells of a place beside keyframes: later versions write one or the other.
+fn warn_of_pos(node: &Node, sink: &mut Sink) {
+    if node.has("pos") && node.has("keyframe") {
+        let message = format!("<pos> of the {} has no effect beside <keyframe>", node.block.name);
+        let code = indigo_decl::codes::DUPLICATE_ELEMENT;
+        sink.push_or_count(Diagnostic::warning(code, node.span_of("pos"), message));
+    }
+}
+
 /// Tells of neighbouring keys whose angles about one axis are more than half a turn apart: the shorter way is taken.
-pub(super) fn warn_of_long_turns(node: &Node, sink: &mut Sink) {
+fn warn_of_long_turns(node: &Node, sink: &mut Sink) {
     let turn = |key: &Node| -> Option<Vec3d> {
         let turn = key.node("rotation_quaternion")?;
         Some(Vec3d::from(turn.vec3("axis")).try_normalized()? * turn.real("angle"))

@@ -340,4 +340,9 @@ fn report_stand_in_of_kind(kind: &Node, sink: &mut Sink) {
         let message = "<fast_sss> is of a later format version (4.0) and not rendered: <phong> stands in";
         sink.push_or_count(Diagnostic::warning(codes::STANDS_IN, kind.span, message));
     }
+    if kind.block.name == "sunsky" {
+        let message =
+            "<sunsky> (of version 3.0) is rendered as a background alone: on a surface black stands in";
+        sink.push_or_count(Diagnostic::warning(codes::STANDS_IN, kind.span, message));
+    }
 }

@@ -16,7 +16,7 @@ pub(super) fn placement(node: &Node, sink: &mut Sink) -> (Transform, Option<Move
         return (placed(node, linear, pos, sink), None);
     }
     let (linear, motion) = (linear(node), keyframes::motion(node));
-    keyframes::warn_of_long_turns(node, sink);
+    keyframes::warn_of_keys(node, sink);
     let pose = motion.at(0.0);
     let transform = placed(node, pose.rotation() * linear, pose.pos, sink);
     let movement = if motion.moves() { Movement::new(linear, motion) } else { None };

@@ -114,3 +114,16 @@ fn meshes_and_media_of_one_name_are_told_apart_by_uid() {
         "{twice:?}"
     );
 }
+
+#[test]
+fn a_place_beside_keyframes_is_told() {
+    let both = material("m", GREY) + &material("n", GREY);
+    let keyed = |pos: &str, warnings: &[&str]| {
+        let model = format!(
+            "<model>{pos}<keyframe><time>0</time><pos>1 2 3</pos></keyframe><scale>0.5</scale><mesh_name>tri</mesh_name></model>"
+        );
+        dump(&scene_with(&format!("{CAMERA}{LIGHT}{MESH}{model}{both}"), warnings))
+    };
+    let told = keyed("<pos>9 9 9</pos>", &["W0103 <pos> of the model has no effect beside <keyframe>"]);
+    assert_eq!(told, keyed("", &[]));
+}

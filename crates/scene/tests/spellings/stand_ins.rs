@@ -80,6 +80,23 @@ fn what_stands_in_is_written_where_a_scene_is_written_anew() {
 }
 
 #[test]
+fn versions_are_named_of_what_is_not_rendered() {
+    let specular = |more: &str| {
+        with(
+            "material",
+            &format!("<specular><internal_medium_name>air</internal_medium_name>{more}</specular>"),
+        )
+    };
+    let absorbs = "<absorption_layer_transmittance><constant><uniform><value>0.5</value></uniform></constant></absorption_layer_transmittance>";
+    let warning = "W0102 <absorption_layer_transmittance> in <specular> is of a later format version (3.0)";
+    assert_eq!(dump(&scene_with(&specular(absorbs), &[warning])), dump(&scene_with(&specular(""), &[])));
+    let sum = with("material", "<sum><mat><mat_name>n</mat_name><weight>1</weight></mat></sum>");
+    scene_with(&sum, &["W0320 <sum> is of a later format version (4.0) and not rendered: n stands in"]);
+    let sunsky = with("material", "<sunsky><sundir>0 0.6 1</sundir></sunsky>");
+    scene_with(&sunsky, &["W0320 <sunsky> (of version 3.0) is rendered as a background alone"]);
+}
+
+#[test]
 fn a_picture_of_the_surroundings_has_a_stand_in() {
     let background = |path: &str| {
         format!(
@@ -93,4 +110,16 @@ fn a_picture_of_the_surroundings_has_a_stand_in() {
     assert!(surroundings(&scene) > 0.0);
     let found = findings(&loaded(&background("none.hdr")));
     assert!(found[0].1.starts_with("E0302"), "{found:?}");
+}
+
+#[test]
+fn a_background_of_other_materials_is_told_to_be_dark() {
+    let shines = "<diffuse><base_emission><uniform><value>5</value></uniform></base_emission></diffuse>";
+    let blend = "<blend><blend_factor>0.5</blend_factor><a_name>m</a_name><b_name>n</b_name></blend>";
+    let scene = format!(
+        "{CAMERA}{}{}<background_settings><background_material><material><name>b</name>{blend}</material></background_material></background_settings>",
+        material("m", shines),
+        material("n", GREY)
+    );
+    scene_with(&scene, &["W0319 as a background a <blend> gives no light but its own", "W0306"]);
 }
