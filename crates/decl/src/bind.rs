@@ -11,7 +11,7 @@ use indigo_diag::{Diagnostic, Severity, Sink, nearest};
 use std::cell::Cell;
 
 /// Name of the wrapper that later versions of the format put round constant values.
-const CONSTANT: &str = "constant";
+pub(crate) const CONSTANT: &str = "constant";
 
 /// Name of the wrapper that some exporters put round a path.
 const PATH: &str = "path";

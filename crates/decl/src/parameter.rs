@@ -5,6 +5,7 @@
 //! a list beside it, a `texture` may name one by its `texture_index`. Here the later forms become those of 1.0, before
 //! anything is bound: both spellings are one thing from then on.
 
+use crate::bind::CONSTANT;
 use crate::codes;
 use crate::element::Element;
 use crate::field::Block;
@@ -66,13 +67,23 @@ pub(crate) fn settle(children: Vec<Element>, block: &'static Block, sink: &mut S
     let is_listed = |child: &Element| &*child.name == TEXTURE && !declares_list;
     let (list, rest): (Vec<_>, Vec<_>) = children.into_iter().partition(is_listed);
     let settling = Settling { list: &list };
-    let overriding: Vec<&Parameter> =
-        block.parameters.iter().filter(|p| rest.iter().any(|child| &*child.name == p.name)).collect();
+    // Each with the place of its last element: of two forms it would not be seen any more that they were of one name.
+    let overriding: Vec<(&Parameter, usize)> = block
+        .parameters
+        .iter()
+        .filter_map(|p| Some((p, rest.iter().rposition(|child| &*child.name == p.name)?)))
+        .collect();
     let mut settled = Vec::with_capacity(rest.len());
-    for child in rest {
-        if let Some(parameter) = overriding.iter().find(|p| *child.name == *p.name) {
+    for (i, child) in rest.into_iter().enumerate() {
+        if let Some((parameter, last)) = overriding.iter().find(|(p, _)| *child.name == *p.name) {
+            if i < *last {
+                let (name, parent) = (&child.name, block.name);
+                let message = format!("<{name}> is given more than once in <{parent}>; the last one counts");
+                sink.push(Diagnostic::warning(codes::DUPLICATE_ELEMENT, child.span, message));
+                continue;
+            }
             settled.extend(settling.parameter(child, parameter, sink));
-        } else if let Some(p) = overriding.iter().find(|p| p.overrides(&child.name)) {
+        } else if let Some((p, _)) = overriding.iter().find(|(p, _)| p.overrides(&child.name)) {
             sink.push(Diagnostic::warning(
                 codes::DUPLICATE_ELEMENT,
                 child.span,
@@ -94,6 +105,10 @@ impl Settling<'_> {
     fn parameter(&self, mut child: Element, parameter: &Parameter, sink: &mut Sink) -> Option<Element> {
         if let Some(i) = child.children.iter().position(|c| &*c.name == TEXTURE) {
             let texture = child.children.swap_remove(i);
+            for other in child.children.iter().filter(|c| &*c.name == CONSTANT) {
+                let message = format!("<{CONSTANT}> in <{}> has no effect beside <{TEXTURE}>", child.name);
+                sink.push(Diagnostic::warning(codes::DUPLICATE_ELEMENT, other.span, message));
+            }
             if parameter.texture.is_empty() {
                 return stand_in(&child, &texture, parameter, sink);
             }

@@ -116,6 +116,25 @@ fn meshes_and_media_of_one_name_are_told_apart_by_uid() {
 }
 
 #[test]
+fn two_forms_of_one_parameter_are_told() {
+    let constant = "<constant><uniform><value>0.5</value></uniform></constant>";
+    let texture = "<texture><path>a.bmp</path></texture>";
+    let of = |albedo: &str, warnings: &[&str]| {
+        let both = material("m", &format!("<diffuse>{albedo}</diffuse>")) + &material("n", GREY);
+        dump(&scene_with(&format!("{CAMERA}{LIGHT}{MESH}{MODEL}{both}"), warnings))
+    };
+    let form = |inside: &str| format!("<albedo>{inside}</albedo>");
+    let twice = "W0103 <albedo> is given more than once in <diffuse>; the last one counts";
+    for (first, last) in [(constant, texture), (texture, constant)] {
+        assert_eq!(of(&(form(first) + &form(last)), &[twice]), of(&form(last), &[]));
+    }
+    let beside = "W0103 <constant> in <albedo> has no effect beside <texture>";
+    for inside in [format!("{constant}{texture}"), format!("{texture}{constant}")] {
+        assert_eq!(of(&form(&inside), &[beside]), of(&form(texture), &[]));
+    }
+}
+
+#[test]
 fn a_place_beside_keyframes_is_told() {
     let both = material("m", GREY) + &material("n", GREY);
     let keyed = |pos: &str, warnings: &[&str]| {
