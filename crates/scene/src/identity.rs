@@ -12,8 +12,15 @@ use std::collections::{BTreeMap, HashSet};
 use std::sync::{Mutex, PoisonError};
 
 /// Elements without influence on the film.
-const DEVELOPMENT: &[&str] =
-    &["renderer_settings", "tonemapping", "white_balance", "exposure_duration", "bloom", "metadata"];
+const DEVELOPMENT: &[&str] = &[
+    "renderer_settings",
+    "tonemapping",
+    "white_balance",
+    "white_point",
+    "exposure_duration",
+    "bloom",
+    "metadata",
+];
 
 /// Hands files on and keeps the hashes of their contents.
 pub(crate) struct Witness<'a> {

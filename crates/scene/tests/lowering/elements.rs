@@ -173,6 +173,12 @@ fn a_white_point_counts_unless_a_white_is_named() {
     let named = "<white_balance>0.31 0.4</white_balance>";
     assert_eq!(white(&point("0.31", "0.4")), white(named));
     assert_ne!(white(&point("0.31", "0.4")), white(""));
+    // The film is the same whatever is white in its picture.
+    let identity = |more: &str| {
+        loaded(&format!("{HEAD}{}</scene>", with(more))).scene.expect("a scene without faults").identity
+    };
+    assert_eq!(identity(&point("0.31", "0.4")), identity(&point("0.25", "0.3")));
+    assert_eq!(identity(&point("0.31", "0.4")), identity(named));
     let twice = with(&(named.to_owned() + &point("0.25", "0.3")));
     let place = |camera: &str, at: &str, code: &str| {
         format!("{LINE}:{}:{code}", camera.find(at).expect("the text is in the camera") + 1)
