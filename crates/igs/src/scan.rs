@@ -9,6 +9,9 @@ use crate::text;
 use indigo_diag::{Diagnostic, Sink, SourceId, Span};
 use std::ops::Range;
 
+/// What document types are made of.
+const DECLARATIONS: [&[u8]; 5] = [b"DOCTYPE", b"ENTITY", b"ELEMENT", b"ATTLIST", b"NOTATION"];
+
 /// A piece of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Token {
@@ -177,11 +180,12 @@ impl<'a> Scanner<'a> {
             }
             return;
         }
-        if self.byte(open.end).is_some_and(|b| b.is_ascii_uppercase()) {
+        let name = open.end..self.find(open.end, |b| !b.is_ascii_uppercase());
+        if DECLARATIONS.contains(&self.slice(&name)) {
             sink.push(
                 Diagnostic::error(
                     codes::DOCTYPE,
-                    self.span(&(open.start..self.find(open.end, |b| !b.is_ascii_uppercase()))),
+                    self.span(&(open.start..name.end)),
                     "document types and entity declarations are not read",
                 )
                 .hint("take it out; only the entities &lt; &gt; &amp; &quot; &apos; and &#...; are known"),

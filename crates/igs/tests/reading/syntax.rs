@@ -17,6 +17,7 @@ fn text_in_all_its_forms() {
     assert_eq!(text_of("<t>a &lt;<![CDATA[&lt;]]></t>"), "a <&lt;");
     assert_eq!(text_of("<t>1 <!-- one --> <!-- two -->2</t>"), "1  2");
     assert_eq!(text_of("<!==== TITLE ====><t a='1>2' b = \"x\" >x</t ><!========>"), "x");
+    assert_eq!(text_of("<!RENDER SETTINGS><t>x</t><!CAMERA a=1>"), "x");
     assert_eq!(text_of("<t/>"), "");
     assert_eq!(text_of("<t>€ größe</t>"), "€ größe");
 }
@@ -62,6 +63,7 @@ fn every_fault_is_found_where_it_is() {
         ("<scene><!-- a", vec!["E0005 1:8"]),
         ("<scene><![CDATA[", vec!["E0005 1:8"]),
         ("<!DOCTYPE s [<!ENTITY a 'b'>]><scene>&a;</scene>", vec!["E0007 1:1", "E0003 1:38"]),
+        ("<scene><!ELEMENT a ANY><!NOTATION b></scene>", vec!["E0007 1:8", "E0007 1:24"]),
     ] {
         assert_eq!(Read::text(text).findings(), findings, "{text}");
     }
