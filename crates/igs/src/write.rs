@@ -205,7 +205,10 @@ impl Writer<'_> {
             self.end_line();
         }
         self.unordered_names(mesh, depth);
-        let triangles: Vec<(&[u32; 3], &u32)> = data.triangles.iter().zip(&data.triangle_materials).collect();
+        // Those without area close the surface.
+        let degenerate = data.degenerate.iter().zip(&data.degenerate_materials);
+        let triangles: Vec<(&[u32; 3], &u32)> =
+            data.triangles.iter().zip(&data.triangle_materials).chain(degenerate).collect();
         for run in triangles.chunk_by(|a, b| a.1 == b.1) {
             self.triangle_set(mesh, run, depth);
         }
@@ -215,7 +218,7 @@ impl Writer<'_> {
     /// name materials by these numbers.
     fn unordered_names(&mut self, mesh: &EmbeddedMesh, depth: usize) {
         let mut next = 0;
-        for &material in &mesh.data.triangle_materials {
+        for &material in mesh.data.triangle_materials.iter().chain(&mesh.data.degenerate_materials) {
             if material > next {
                 break;
             }

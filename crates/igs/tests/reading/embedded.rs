@@ -194,3 +194,24 @@ fn reading_is_stopped_within_a_mesh() {
     // The third question is answered so, and what was read until then is not judged: it is not known whether it is whole.
     assert!(!is_read && (3..MEBIBYTES).contains(&asked) && found == 0, "{asked}, {found}");
 }
+
+#[test]
+fn triangles_without_area_are_written_again() {
+    let text = format!(
+        "<scene><mesh><embedded>{}<triangle_set><material_name>a</material_name><tri>0 1 1</tri></triangle_set>{SET}<triangle_set><material_name>b</material_name><tri>2 2 2</tri></triangle_set></embedded></mesh></scene>",
+        vertices(["", "", ""])
+    );
+    let before = Read::text(&text);
+    let after = Read::text(&indigo_igs::write(before.root()));
+    let mesh = |read: &Read| read.root().children[0].children[0].mesh.clone().expect("a mesh").data;
+    let [before, after] = [&before, &after].map(mesh);
+    assert_eq!(before.degenerate, [[0, 1, 1], [2, 2, 2]]);
+    assert_eq!((&after.degenerate, after.material_names.len()), (&before.degenerate, 3));
+    let names = |data: &indigo_decl::MeshData| -> Vec<String> {
+        let of = |m: &u32| data.material_names[*m as usize].clone();
+        data.triangle_materials.iter().chain(&data.degenerate_materials).map(of).collect()
+    };
+    assert_eq!(names(&after), ["white", "a", "b"]);
+    assert_eq!(names(&after), names(&before));
+    assert_eq!(after.material_names, before.material_names);
+}
