@@ -10,7 +10,7 @@ indigo_decl::codes! {
     /// A scene without `tonemapping`.
     NO_TONEMAPPING = "W0305", "(a scene without `tonemapping`)";
     /// A scene without light.
-    NO_LIGHT = "W0306", "(a scene without `background`, `skylight`, `env_map`, `meshlight` and `rectanglelight`)";
+    NO_LIGHT = "W0306", "(a scene without `background`, `background_settings`, `skylight`, `env_map`, `meshlight`, `rectanglelight` and emitting materials)";
     /// The normal of a plane is not of length 1.
     NOT_UNIT = "W0307", "<plane><normal>0 0 2</normal><dist>0</dist><material_name>white</material_name></plane>";
     /// Texels that cannot be light.

@@ -239,7 +239,7 @@ fn build(root: &Node, settings: &Settings, path: &str, context: &mut Context) ->
                 root.span,
                 "the scene has no light: the picture will be black",
             )
-            .hint("add a <background>, a <meshlight> or a <rectanglelight>"),
+            .hint("add a <background>, a <meshlight>, a <rectanglelight> or a material that emits"),
         );
     }
     if context.sink.has_errors() || context.options.check_only || context.options.is_stopped() {
@@ -315,7 +315,8 @@ fn accel(
     }
 }
 
-/// Elements that give light.
+/// Elements that give light whatever materials there are: of those that emit, as a background or on models, the lights that
+/// came of them are looked at.
 const LIGHTS: [&str; 5] = ["background", "skylight", "env_map", "meshlight", "rectanglelight"];
 
 fn find_camera<'a>(root: &'a Node, sink: &mut Sink) -> Option<&'a Node> {
