@@ -12,9 +12,12 @@ use std::cell::Cell;
 
 /// Name of the wrapper that later versions of the format put round constant values.
 pub(crate) const CONSTANT: &str = "constant";
+/// Names of the elements that hold the value of an even spectrum.
+pub(crate) const UNIFORM: &str = "uniform";
+pub(crate) const VALUE: &str = "value";
 
 /// Name of the wrapper that some exporters put round a path.
-const PATH: &str = "path";
+pub(crate) const PATH: &str = "path";
 
 /// What a reference by uid has before the uid, so that it is told from a name.
 pub const UID: &str = "uid ";
@@ -143,7 +146,12 @@ fn bind_field(child: Element, field: &'static Field, sink: &mut Sink) -> Option<
         }
         _ => {
             let child = unwrap(child, CONSTANT, sink);
-            let child = if matches!(field.kind, Kind::Path) { unwrap(child, PATH, sink) } else { child };
+            let child = match field.kind {
+                Kind::Path => unwrap(child, PATH, sink),
+                // As exporters write whatever may have a texture, too: a number as if it were a spectrum.
+                Kind::Real => unwrap(unwrap(child, UNIFORM, sink), VALUE, sink),
+                _ => child,
+            };
             report::attributes(&child, sink);
             for inner in &child.children {
                 report::unexpected_child(inner, &child.name, sink);

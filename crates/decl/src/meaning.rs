@@ -3,15 +3,12 @@
 //! [`bind()`](crate::bind()) turns elements into something else and tells of every fault; here they stay what they are, and one is
 //! looked up at a time, by the same rules.
 
+use crate::bind::{CONSTANT, PATH, UNIFORM, VALUE};
 use crate::element::Element;
 use crate::field::{Alternatives, Block, Field, Kind, Later, Presence};
 use crate::parameter::Parameter;
 use crate::value::{self, ValueError};
 
-/// Name of the wrapper that later versions of the format put round constant values.
-const CONSTANT: &str = "constant";
-/// Name of the wrapper that some exporters put round a path.
-const PATH: &str = "path";
 /// Name of the image maps in a parameter as later versions write it, and of those in a list beside it.
 const TEXTURE: &str = "texture";
 
@@ -50,6 +47,9 @@ impl Meaning {
             Self::OneOf(..) if name == CONSTANT => self,
             Self::OneOf(alternatives, _) => one_of(alternatives, name).unwrap_or(Self::Unknown),
             Self::Value(_) if name == CONSTANT => self,
+            Self::Value(field) if [UNIFORM, VALUE].contains(&name) && matches!(field.kind, Kind::Real) => {
+                self
+            }
             Self::Value(field) if name == PATH && matches!(field.kind, Kind::Path) => self,
             Self::Parameter(_, Some(texture)) if name == TEXTURE => Self::of(texture),
             Self::Parameter(Some(constant), _) => Self::of(constant).child(name),

@@ -73,6 +73,7 @@ pub static BLOCK: Block = Block::new(
         texture: "transmittance_texture",
         stand_in: StandIn::Uniform("0.5"),
     },
+    Parameter { name: "r_f", since: "3.0", constant: "r_f", texture: "", stand_in: StandIn::Text("0.5") },
     BASE_EMISSION_PARAMETER,
     EMISSION_PARAMETER,
 ])

@@ -1,8 +1,8 @@
 //! `fast_sss`: light scattered below the surface, which later versions do in a quick way of their own.
 
 use super::fields::{
-    BASE_EMISSION_PARAMETER, BUMP, EMISSION_PARAMETER, INTERNAL_MEDIUM_NAME, LATER, ROUGHNESS,
-    ROUGHNESS_PARAMETER,
+    BASE_EMISSION_PARAMETER, BUMP, EMISSION_PARAMETER, EXPONENT_PARAMETER, FRESNEL_SCALE_PARAMETER,
+    INTERNAL_MEDIUM_NAME, LATER, ROUGHNESS, ROUGHNESS_PARAMETER,
 };
 use super::glossy_transparent::GlossyTransparent;
 use super::phong::{FAST_SSS_FIELDS, Phong};
@@ -30,6 +30,8 @@ pub static BLOCK: Block = Block::new(
     },
     BASE_EMISSION_PARAMETER,
     EMISSION_PARAMETER,
+    EXPONENT_PARAMETER,
+    FRESNEL_SCALE_PARAMETER,
     ROUGHNESS_PARAMETER,
     BUMP,
 ])

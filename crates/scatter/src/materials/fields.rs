@@ -52,6 +52,15 @@ pub const ROUGHNESS_MAP: Field = Field::new(
     "An image map that takes the place of the roughness. Below 0 it counts as 0, and above 1 as 1, with a warning.",
 );
 
+/// `exponent` as later versions write it.
+pub const EXPONENT_PARAMETER: Parameter = Parameter {
+    name: "exponent",
+    since: "1.1",
+    constant: "exponent",
+    texture: "exponent_map",
+    stand_in: StandIn::Text("1000"),
+};
+
 /// The factor on reflectance as later versions write it.
 pub const FRESNEL_SCALE_PARAMETER: Parameter = Parameter {
     name: "fresnel_scale",

@@ -1,6 +1,7 @@
 //! `background_settings`: the surroundings as a material that emits.
 
 use super::Context;
+use super::emission;
 use super::environment::{self, Surroundings};
 use super::materials::MaterialTable;
 use crate::codes;
@@ -93,17 +94,11 @@ fn even_light(kind: &Node, weight: f64, is_coloured: bool, context: &mut Context
         }
         return picture(texture, gain.luminance() / Spectrum::uniform(1.0).luminance() * weight, context);
     }
-    let radiance = match (base, field("emission")) {
-        (Some(base), Some(colour)) => {
-            read::emission(base, context.sink).times(&read::factor(colour, context.sink))
-        }
-        (Some(only), None) | (None, Some(only)) => read::emission(only, context.sink),
-        (None, None) => {
-            warn_of_parts(kind, context);
-            return None;
-        }
-    };
-    Some(Background(radiance.scaled(weight)).into())
+    let radiance = emission::radiance(base, field("emission"), context.sink);
+    if radiance.is_none() {
+        warn_of_parts(kind, context);
+    }
+    radiance.map(|radiance| Background(radiance.scaled(weight)).into())
 }
 
 /// Tells of a kind that is made of other materials, whose light is not looked for.

@@ -2,8 +2,8 @@
 
 use crate::materials::fields::{
     ALBEDO_TEXTURE, BASE_EMISSION, BASE_EMISSION_PARAMETER, BUMP, BUMP_MAP, COLOUR_DEPRECATED, EMISSION,
-    EMISSION_PARAMETER, EMISSION_TEXTURE, FRESNEL_SCALE_PARAMETER, LATER, LAYER, ROUGHNESS, ROUGHNESS_MAP,
-    ROUGHNESS_PARAMETER,
+    EMISSION_PARAMETER, EMISSION_TEXTURE, EXPONENT_PARAMETER, FRESNEL_SCALE_PARAMETER, LATER, LAYER,
+    ROUGHNESS, ROUGHNESS_MAP, ROUGHNESS_PARAMETER,
 };
 use indigo_decl::{Block, Field, Group, Kind, Parameter, Presence, Range, StandIn};
 use indigo_spectrum::declare::SPECTRUM;
@@ -149,13 +149,8 @@ pub(in crate::materials) const PARAMETERS: &[Parameter] = &[
         texture: "specular_reflectivity_texture",
         stand_in: StandIn::Uniform("0.5"),
     },
-    Parameter {
-        name: "exponent",
-        since: "1.1",
-        constant: "exponent",
-        texture: "exponent_map",
-        stand_in: StandIn::Text("1000"),
-    },
+    Parameter { name: "ior", since: "1.1", constant: "ior", texture: "", stand_in: StandIn::Text("1.5") },
+    EXPONENT_PARAMETER,
     ROUGHNESS_PARAMETER,
     FRESNEL_SCALE_PARAMETER,
     BUMP,
