@@ -113,7 +113,9 @@ pub fn run(arguments: &[String]) -> Outcome {
         return Err("no check has that name".into());
     }
     if options.list {
-        checks.iter().for_each(|check| list(check, options.form));
+        for check in &checks {
+            list(check, options.form);
+        }
         return Ok(());
     }
     let keep = match options.form {
