@@ -86,6 +86,12 @@ pub fn tone_map(arguments: &Arguments, console: &mut Console) -> u8 {
             developed.image.size, development.size
         ));
     }
+    if developed.record.is_none() && developed.refused > 0 {
+        console.warn(&format!(
+            "{} pixels of the film {film} hold what is no number: they are black",
+            developed.refused
+        ));
+    }
     let said = |setting| developed.record.as_ref().and_then(|record| record.setting(setting));
     let is_true = |setting| said(setting) == Some("true");
     if developed.record.is_some() && said(FOREGROUND_ALPHA).is_none() {

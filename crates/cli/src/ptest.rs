@@ -58,7 +58,8 @@ fn measure(path: &str, arguments: &Arguments, console: &mut Console) -> Result<V
     let progress = loop {
         let event = session.wait(if first_pass.is_none() { OFTEN } else { SELDOM });
         let (Event::Progress(now) | Event::Halted(_, now)) = &event;
-        if now.samples >= pixels {
+        // Of a region it is the region's.
+        if now.samples_per_pixel >= 1.0 || matches!(event, Event::Halted(..)) {
             first_pass.get_or_insert_with(|| start.elapsed());
         }
         match event {

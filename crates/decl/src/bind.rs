@@ -55,11 +55,7 @@ fn bind_child(child: Element, parent: &str, node: &mut Node, implied: &mut Vec<E
             if matches!(field.kind, Kind::Reference(_)) && is_uid(&child.name) {
                 return;
             }
-            sink.push(Diagnostic::warning(
-                codes::DUPLICATE_ELEMENT,
-                child.span,
-                format!("<{}> is given more than once in <{parent}>; the last one counts", child.name),
-            ));
+            report::duplicate(&child, parent, sink);
             node.slots[i].clear();
         }
         let errors = sink.error_count();
@@ -149,7 +145,9 @@ fn bind_field(child: Element, field: &'static Field, sink: &mut Sink) -> Option<
             let child = match field.kind {
                 Kind::Path => unwrap(child, PATH, sink),
                 // As exporters write whatever may have a texture, too: a number as if it were a spectrum.
-                Kind::Real => unwrap(unwrap(child, UNIFORM, sink), VALUE, sink),
+                Kind::Real if child.child(UNIFORM).is_some() => {
+                    unwrap(unwrap(child, UNIFORM, sink), VALUE, sink)
+                }
                 _ => child,
             };
             report::attributes(&child, sink);

@@ -304,7 +304,7 @@ impl Kind {
             Self::Int => "a whole number".to_owned(),
             Self::Real => "a number".to_owned(),
             Self::Vec3 => "3 numbers".to_owned(),
-            Self::Matrix3 => "9 numbers".to_owned(),
+            Self::Matrix3 => "9 numbers, after which 3 zeros may follow".to_owned(),
             Self::Reals => "numbers separated by blanks".to_owned(),
             Self::Text => "text".to_owned(),
             Self::Path => "a path".to_owned(),

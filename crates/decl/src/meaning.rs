@@ -6,11 +6,8 @@
 use crate::bind::{CONSTANT, PATH, UNIFORM, VALUE};
 use crate::element::Element;
 use crate::field::{Alternatives, Block, Field, Kind, Later, Presence};
-use crate::parameter::Parameter;
+use crate::parameter::{Parameter, TEXTURE};
 use crate::value::{self, ValueError};
-
-/// Name of the image maps in a parameter as later versions write it, and of those in a list beside it.
-const TEXTURE: &str = "texture";
 
 /// What an element is.
 #[derive(Clone, Copy, Debug)]

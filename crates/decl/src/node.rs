@@ -41,6 +41,17 @@ pub(crate) enum Content {
     Mesh(Box<EmbeddedMesh>),
 }
 
+impl Content {
+    fn says_the_same(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Value(a), Self::Value(b)) => a == b,
+            (Self::Node(a), Self::Node(b)) => a.says_the_same(b),
+            (Self::Mesh(a), Self::Mesh(b)) => a == b,
+            _ => false,
+        }
+    }
+}
+
 impl Node {
     pub(crate) fn new(block: &'static Block, span: Span) -> Self {
         Self {
@@ -81,6 +92,21 @@ impl Node {
     /// The place of a field, or of the whole element where the field was not given.
     pub fn span_of(&self, field: &str) -> Span {
         self.slots[self.index(field)].last().map_or(self.span, |s| s.span)
+    }
+
+    /// Whether another element says the same, wherever it stands and however it is spelt.
+    pub fn says_the_same(&self, other: &Self) -> bool {
+        let alike = |(a, b): (&Vec<Slot>, &Vec<Slot>)| {
+            a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.content.says_the_same(&b.content))
+        };
+        let chosen = match (&self.alternative, &other.alternative) {
+            (Some(a), Some(b)) => a.says_the_same(b),
+            (a, b) => a.is_none() && b.is_none(),
+        };
+        std::ptr::eq(self.block, other.block)
+            && chosen
+            && self.faulty == other.faulty
+            && self.slots.iter().zip(&other.slots).all(alike)
     }
 
     /// Says that lowering made use of this element, where its presence alone has a meaning

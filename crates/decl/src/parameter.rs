@@ -9,6 +9,7 @@ use crate::bind::CONSTANT;
 use crate::codes;
 use crate::element::Element;
 use crate::field::Block;
+use crate::report;
 use indigo_diag::{Diagnostic, Sink, Spanned};
 
 /// A parameter that later versions of the format write under one name.
@@ -56,7 +57,7 @@ impl StandIn {
 }
 
 /// Name of the elements in the list of a material's textures, and of those that refer to them.
-const TEXTURE: &str = "texture";
+pub(crate) const TEXTURE: &str = "texture";
 
 /// Turns later forms of parameters among the children of an element into those of 1.0.
 pub(crate) fn settle(children: Vec<Element>, block: &'static Block, sink: &mut Sink) -> Vec<Element> {
@@ -77,9 +78,7 @@ pub(crate) fn settle(children: Vec<Element>, block: &'static Block, sink: &mut S
     for (i, child) in rest.into_iter().enumerate() {
         if let Some((parameter, last)) = overriding.iter().find(|(p, _)| *child.name == *p.name) {
             if i < *last {
-                let (name, parent) = (&child.name, block.name);
-                let message = format!("<{name}> is given more than once in <{parent}>; the last one counts");
-                sink.push(Diagnostic::warning(codes::DUPLICATE_ELEMENT, child.span, message));
+                report::duplicate(&child, block.name, sink);
                 continue;
             }
             settled.extend(settling.parameter(child, parameter, sink));

@@ -37,6 +37,14 @@ pub(crate) fn attributes(element: &Element, sink: &mut Sink) {
     }
 }
 
+pub(crate) fn duplicate(child: &Element, parent: &str, sink: &mut Sink) {
+    sink.push(Diagnostic::warning(
+        codes::DUPLICATE_ELEMENT,
+        child.span,
+        format!("<{}> is given more than once in <{parent}>; the last one counts", child.name),
+    ));
+}
+
 pub(crate) fn deprecated(child: &Element, field: &Field, sink: &mut Sink) {
     if !field.deprecated.is_empty() {
         sink.push(

@@ -139,6 +139,8 @@ pub struct DevelopedFilm {
     pub image: XyzImage,
     /// Where it comes from; `None` for a file of another program.
     pub record: Option<FilmRecord>,
+    /// As [`FilmState::refused`]; of a file of another program pixels that hold no number, and are black.
+    pub refused: u64,
 }
 
 impl SavedFilm {

@@ -66,6 +66,7 @@ fn developing_a_file_is_developing_its_film() {
         let file = bytes(&film);
         let developed = develop(&file).unwrap();
         assert_eq!((developed.image, developed.record), (film.film.develop(), film.record.clone()));
+        assert_eq!(developed.refused, film.film.refused);
         film.film.layers.swap(0, 1);
         let swapped = develop(&bytes(&film)).unwrap().image;
         assert!(swapped == film.film.develop() && (width == 1 || swapped.missing.contains(&true)));
@@ -103,6 +104,13 @@ fn a_reader_of_version_1_finds_the_picture() {
     for (a, b) in foreign.film.develop().pixels.iter().zip(&developed.pixels) {
         assert!(a[..3].iter().zip(b).all(|(a, b)| (a / b - 1.0).abs() < 1e-5));
     }
+    // What is no number is black, and counted.
+    let mut broken = file[..5040 + 57 * 39 * 12].to_vec();
+    broken[40..52].fill(0);
+    for (pixel, value) in [(3, f32::NAN), (500, f32::INFINITY)] {
+        broken[5040 + 12 * pixel..][..4].copy_from_slice(&value.to_le_bytes());
+    }
+    assert_eq!(develop(&broken).unwrap().refused, 2);
     // A length of 0 is none; any other must be right. And nobody takes so many samples.
     let mut changed = file[..5040 + 57 * 39 * 12].to_vec();
     changed[40..52].fill(0);

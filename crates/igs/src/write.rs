@@ -89,9 +89,12 @@ impl Declared {
     }
 }
 
-/// The first sentence of a documentation, without its marks.
+/// The first sentence of a documentation, without its marks. A point before a small letter or a digit is that of an
+/// abbreviation.
 fn first_sentence(doc: &str) -> String {
-    let sentence = doc.split_once(". ").map_or(doc, |(first, _)| first).trim_end_matches('.');
+    let goes_on = |at: usize| doc[at + 2..].starts_with(|c: char| c.is_lowercase() || c.is_ascii_digit());
+    let end = doc.match_indices(". ").map(|(at, _)| at).find(|at| !goes_on(*at)).unwrap_or(doc.len());
+    let sentence = doc[..end].trim_end_matches('.');
     sentence.split_whitespace().collect::<Vec<_>>().join(" ").replace('`', "")
 }
 
@@ -251,5 +254,17 @@ impl Writer<'_> {
         self.indent(depth);
         self.out.push_str("</triangle_set>");
         self.end_line();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::first_sentence;
+
+    #[test]
+    fn sentences_end_before_capital_letters() {
+        let doc = "The `pos` of a lamp, e.g. one of a room (fig. 3). It is in metres.";
+        assert_eq!(first_sentence(doc), "The pos of a lamp, e.g. one of a room (fig. 3)");
+        assert_eq!(first_sentence("A sphere."), "A sphere");
     }
 }

@@ -66,7 +66,8 @@ fn names_that_lead_elsewhere_are_refused() {
         "a/../../up.png",
         "/etc/passwd",
         "C:/x.png",
-        "a\\b.png",
+        "..\\up.png",
+        "\\\\host\\x.png",
         "a//b.png",
         "./a.png",
         "tab\t.png",
@@ -90,6 +91,17 @@ fn names_that_lead_elsewhere_are_refused() {
     assert!(refusal(both).contains("\"a/b/c.png\" lies in a folder that is a file, too"));
     let twice = archive(&[("scene.igs", b"<scene/>"), ("a.png", b"x"), ("A.png", b"y")]);
     assert!(refusal(twice).contains("capital letters"));
+}
+
+#[test]
+fn folders_as_windows_writes_them() {
+    let pack = open(archive(&[("room.igs", b"<scene/>"), ("maps\\", b""), ("maps\\wood.png", b"wood")]));
+    let pack = pack.unwrap();
+    assert_eq!(pack.main().unwrap(), "room.igs");
+    assert_eq!(pack.read("maps/wood.png").unwrap(), b"wood");
+    assert_eq!(pack.members().count(), 2);
+    let twice = archive(&[("scene.igs", b"<scene/>"), ("maps/a.png", b"x"), ("maps\\a.png", b"y")]);
+    assert!(refusal(twice).contains("slashes"));
 }
 
 #[test]

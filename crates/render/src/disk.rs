@@ -6,7 +6,7 @@ use indigo_geom::TreeStore;
 use indigo_math::pages;
 use std::fs::File;
 use std::io::{Read, Write as _};
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Finds files beside the scene, then beside the file that names them (which the scene may include), then in resource
@@ -131,7 +131,9 @@ impl Resolver for DiskResolver {
     fn read(&self, path: &str, from: &str) -> Result<Resolved, ResolveError> {
         let candidates = self.candidates(path, from);
         let found = candidates.iter().find(|c| c.exists()).cloned();
-        match found.or_else(|| candidates.iter().find_map(|c| ignoring_case(c))) {
+        let ignoring_case = || candidates.iter().find_map(|c| ignoring_case(c));
+        let without_detours = || candidates.iter().map(|c| without_detours(c)).find(|c| c.is_file());
+        match found.or_else(ignoring_case).or_else(without_detours) {
             Some(path) => self.read_file(&path),
             None => Err(ResolveError::NotFound {
                 looked: candidates.iter().map(|c| c.display().to_string()).collect(),
@@ -140,13 +142,27 @@ impl Resolver for DiskResolver {
     }
 }
 
+/// The path without `..` after the name of a folder. Windows asks for no such folder to be there; other systems do, and
+/// where it is a link they mean something else by it.
+fn without_detours(path: &Path) -> PathBuf {
+    let mut short = PathBuf::new();
+    for part in path.components() {
+        let is_below_folder = matches!(short.components().next_back(), Some(Component::Normal(_)));
+        if part == Component::ParentDir && is_below_folder {
+            short.pop();
+        } else {
+            short.push(part);
+        }
+    }
+    short
+}
+
 /// The file whose path differs from the wanted one in case alone.
 fn ignoring_case(wanted: &Path) -> Option<PathBuf> {
     let mut found = PathBuf::new();
     for part in wanted.components() {
         let exact = found.join(part);
-        if exact.exists() || found.as_os_str().is_empty() && !matches!(part, std::path::Component::Normal(_))
-        {
+        if exact.exists() || found.as_os_str().is_empty() && !matches!(part, Component::Normal(_)) {
             found = exact;
             continue;
         }
@@ -220,6 +236,7 @@ mod tests {
         assert_eq!(text("N:/work\\old/beside.obj").unwrap(), b"mesh");
         assert_eq!(text("/nowhere/Beside.OBJ").unwrap(), b"mesh");
         assert_eq!(text("nkdata/Au.nk").unwrap(), b"gold");
+        assert_eq!(text("absent\\..\\beside.obj").unwrap(), b"mesh");
         assert!(matches!(text("missing.png"), Err(ResolveError::NotFound { looked }) if looked.len() == 2));
         assert!(matches!(text("Maps"), Err(ResolveError::Unreadable { .. })));
         std::fs::remove_dir_all(root).unwrap();

@@ -2,7 +2,7 @@
 
 indigo_decl::codes! {
     /// A name or uid that is defined twice, of which the last definition counts, or that every scene has itself.
-    DUPLICATE_NAME = "W0302", "<material><name>a</name><null_material/></material><material><name>a</name><null_material/></material>";
+    DUPLICATE_NAME = "W0302", "<material><name>a</name><null_material/></material><material><name>a</name><diffuse/></material>";
     /// Something about a mesh, picture or lamp file that its user should know.
     FILE_NOTE = "W0303", "<mesh><name>m</name><embedded></embedded></mesh><model><pos>0 0 0</pos><scale>1</scale><mesh_name>m</mesh_name></model>";
     /// The sensor's aspect ratio is not the picture's.

@@ -150,10 +150,12 @@ impl Bench {
             .arg(console)
             .arg("--out")
             .arg(&out);
+        let path = out.join("report.json");
+        // That of an earlier run would be taken for this one's.
+        drop(std::fs::remove_file(&path));
         // It fails where there is a mistake; the report says why.
         command.current_dir(process::root()).env("INDIGO_RESOURCES", process::root());
         command.status().map_err(|error| format!("validate: {error}"))?;
-        let path = out.join("report.json");
         let report: Value =
             serde_json::from_slice(&read(&path)?).map_err(|error| format!("{}: {error}", path.display()))?;
         let verdicts = report["checks"]

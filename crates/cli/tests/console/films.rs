@@ -197,6 +197,19 @@ fn what_developing_cannot_do_right_is_said() {
     ok(&ran);
     assert!(ran.stderr.contains("note: the layers are made while a scene is rendered"), "{}", ran.stderr);
     assert!(bench.path("c.png").exists() && !bench.path("c_layers.exr").exists());
+    // Of another program's film, which has no mark, a pixel that is no number.
+    let mut foreign = std::fs::read(bench.path("a.igi")).expect("the film");
+    let internal = |at: usize| u32::from_le_bytes(std::array::from_fn(|i| foreign[at + i])) as usize;
+    let pixels = internal(16) * internal(20);
+    foreign.truncate(5040 + 12 * pixels);
+    foreign[40..52].fill(0);
+    for (pixel, says) in [(0.5, false), (f32::NAN, true)] {
+        foreign[5040..5044].copy_from_slice(&pixel.to_le_bytes());
+        std::fs::write(bench.path("foreign.igi"), &foreign).expect("room on the disk");
+        let ran = bench.run(&["--tonemap", "rays.igs", "foreign.igi", "d.png"]);
+        ok(&ran);
+        assert_eq!(ran.stderr.contains("1 pixels of the film"), says, "{}", ran.stderr);
+    }
 }
 
 /// What hides the background is no light, and light does not tell what hides the background: a film is developed as what

@@ -93,7 +93,7 @@ impl IgiFile {
             return self.checked(start, |content| content.develop(mix));
         }
         let SavedFilm { film, record } = read_without_mark(&self.bytes)?;
-        Ok(DevelopedFilm { image: film.develop_mixed(mix, |_| true), record })
+        Ok(DevelopedFilm { image: film.develop_mixed(mix, |_| true), record, refused: film.refused })
     }
 
     /// Makes something of the content of a file with the mark while its hash is computed.
@@ -229,14 +229,14 @@ impl<'a> Content<'a> {
     }
 
     fn develop(self, mix: &LightMix) -> Result<DevelopedFilm, IgiError> {
-        let Self { size, record, layers, .. } = self;
+        let Self { size, record, refused, layers } = self;
         let gains: Vec<f64> = layers.iter().map(|layer| mix.gain(&layer.name)).collect();
         let counted = layers.iter().any(|layer| layer.kind == LayerKind::PerPixel);
         let image = XyzImage::from_chunks(size, counted, BLOCK, Room::default, |room, i, out, missing| {
             let mut mixed = layers.iter().zip(&gains);
             mixed.try_for_each(|(layer, gain)| layer.develop(*gain, size, i, room, (out, missing)))
         })?;
-        Ok(DevelopedFilm { image, record: Some(record) })
+        Ok(DevelopedFilm { image, record: Some(record), refused })
     }
 }
 

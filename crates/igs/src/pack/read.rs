@@ -111,7 +111,7 @@ impl Pack {
         let mut by_name = HashMap::new();
         for (i, member) in members.iter().enumerate() {
             if by_name.insert(member.name.to_lowercase(), i).is_some() {
-                let what = "differs from another in capital letters only";
+                let what = "has the name of another, but for capital letters and slashes";
                 return Err(PackError::Harmful { name: member.name.clone(), what });
             }
         }
@@ -189,11 +189,12 @@ fn members(archive: &mut ZipArchive<Cursor<Arc<[u8]>>>) -> Result<Vec<Member>, P
     let mut members = vec![];
     for index in 0..archive.len() {
         let file = archive.by_index_raw(index).map_err(|e| damaged(&e))?;
-        let name = file.name().map_err(|e| damaged(&e))?.into_owned();
+        // Programs of Windows have written `\\` between folders, which the format does not allow (APPNOTE 4.4.17.1).
+        let name = file.name().map_err(|e| damaged(&e))?.replace('\\', "/");
         if let Some(what) = harm(&name) {
             return Err(PackError::Harmful { name, what });
         }
-        if file.is_dir() {
+        if name.ends_with('/') {
             continue;
         }
         let what = match file.unix_mode().map(|mode| mode & FILE_KIND) {

@@ -171,7 +171,7 @@ fn optical_depth(node: &Node, sink: &mut Sink) -> Option<Spectrum> {
     if absorption.max() == 0.0 {
         return None;
     }
-    if thickness == 0.0 {
+    if thickness == 0.0 && !node.is_faulty("thickness") {
         let message = "<absorption> of a <coating> without a <thickness> has no effect";
         sink.push_or_count(Diagnostic::warning(
             codes::LATER_ELEMENT,
@@ -212,7 +212,7 @@ fn report_unfit_for_films(node: &Node, sink: &mut Sink) {
             "<roughness> of a <coating> with <interference> has no effect: the film is as rough as the metal below",
         ),
         (
-            node.real("thickness") == 0.0,
+            node.real("thickness") == 0.0 && !node.is_faulty("thickness"),
             "interference",
             "<interference> of a <coating> without a <thickness> has no effect",
         ),

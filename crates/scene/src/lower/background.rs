@@ -22,11 +22,8 @@ pub(super) fn lights(
     materials: &MaterialTable,
     context: &mut Context,
 ) -> Vec<(DistantLight, u16)> {
-    let scale = settings.node("emission_scale").map(|scale| {
-        scale.disregard_fields(&["material_name", "measure"]);
-        (scale, scale.real("value"))
-    });
     let material = settings.node("background_material").and_then(|b| b.node("material"));
+    let scale = settings.node("emission_scale").and_then(|scale| scale_of(scale, material, context));
     let Some(material) = material else { return vec![] };
     material.disregard_fields(&["name", "uid"]);
     let Some(kind) = material.alternative() else { return vec![] };
@@ -57,6 +54,23 @@ pub(super) fn lights(
         }
     }
     lights
+}
+
+/// The scale of a background's material, and the luminance that it asks for; `None` where it is of another, which is told.
+fn scale_of<'a>(scale: &'a Node, material: Option<&Node>, context: &mut Context) -> Option<(&'a Node, f64)> {
+    scale.disregard_field("measure");
+    let is_of = |name: &str| {
+        let is = |field| material.and_then(|m| m.opt_text(field)).is_some_and(|own| own.value == name);
+        is("name") || is("uid")
+    };
+    if let Some(named) = scale.opt_text("material_name").filter(|named| !is_of(&named.value)) {
+        scale.disregard();
+        let message =
+            format!("<emission_scale> has no effect: the background's material is not {}", named.value);
+        context.sink.push(Diagnostic::warning(codes::IDLE_SCALE, named.span, message));
+        return None;
+    }
+    Some((scale, scale.real("value")))
 }
 
 /// The kinds that shine in a kind of material, with the factors on their light: itself, or the parts of a sum.

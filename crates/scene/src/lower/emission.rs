@@ -5,7 +5,7 @@ use super::light_layers::{Layer, Layers};
 use crate::codes;
 use indigo_decl::Node;
 use indigo_diag::{Diagnostic, Sink, Span};
-use indigo_scatter::materials::fields::EMISSION_FIELDS;
+use indigo_scatter::materials::fields::{EMISSION_FIELDS, EMISSION_PARAMETER};
 use indigo_spectrum::{Spectrum, read};
 
 /// What a material emits.
@@ -64,11 +64,12 @@ pub(super) fn radiance(base: Option<&Node>, colour: Option<&Node>, sink: &mut Si
 
 /// Says that something of an emitting material gives no light.
 pub(super) fn warn_of_darkness(what: &str, span: Span, context: &mut Context) {
+    let since = EMISSION_PARAMETER.since;
     context.sink.push_or_count(
         Diagnostic::warning(
             codes::NOT_EMITTING,
             span,
-            format!("{what} of an emitting material gives no light"),
+            format!("{what} of a material with <emission> (format version {since}) gives no light"),
         )
         .hint("only a model shines by its materials: place a mesh instead"),
     );

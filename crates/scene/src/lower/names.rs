@@ -42,6 +42,10 @@ impl<'a> Names<'a> {
             }
             if let Some(before) = by_name.insert(name.value.clone(), node) {
                 hidden.push(before);
+                // Exporters repeat what several objects share.
+                if before.says_the_same(node) {
+                    continue;
+                }
                 sink.push(Diagnostic::warning(
                     codes::DUPLICATE_NAME,
                     name.span,

@@ -129,7 +129,7 @@ pub static BACKGROUND_SCALE: Block = Block::new(
     "Scales the light of the surroundings to a mean luminance over all directions. It has no effect on a `sunsky`, of which \
      a warning tells.",
     &[
-        Field::new("material_name", Kind::Text, Presence::Optional, "Name of the background's material.")
+        Field::new("material_name", Kind::Text, Presence::Optional, "Name of the background's material. A scale of another has no effect, of which a warning tells.")
             .aliases(&["material_uid"]),
         Field::new("measure", Kind::Choice(&["luminance"]), Presence::Required, "What is given: the luminance, in cd/m²."),
         VALUE,

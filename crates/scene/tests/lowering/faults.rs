@@ -49,7 +49,8 @@ fn names_are_checked_where_nothing_uses_them() {
     }
     let air =
         "<medium><name>air</name><basic><ior>1</ior><cauchy_b_coeff>0</cauchy_b_coeff></basic></medium>";
-    let line = format!("{air}{air}");
+    assert_eq!(found(&format!("{air}{air}{CAMERA}")), [""; 0]);
+    let line = format!("{air}{}", air.replace("<ior>1<", "<ior>1.0003<"));
     let column = line.rfind("air<").unwrap() + 1;
     assert_eq!(found(&format!("{line}{CAMERA}")), [format!("{LINE}:{column}:W0302")]);
 }

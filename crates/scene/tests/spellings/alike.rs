@@ -84,6 +84,16 @@ fn a_uid_means_its_own_element_though_another_has_its_name() {
 }
 
 #[test]
+fn what_is_repeated_word_for_word_is_not_told() {
+    let scene = |second: &str| {
+        format!("{CAMERA}{LIGHT}{MESH}{MODEL}{}{second}{}", material("m", GREY), material("n", GREY))
+    };
+    let again = material("m", &GREY.replace("0.25", "0.250"));
+    assert_same([&scene(""), &scene(&again), &scene("").replace("0.25", "0.3")]);
+    scene_with(&scene(&again.replace("0.250", "0.3")), &["W0302 material m is defined more than once"]);
+}
+
+#[test]
 fn meshes_and_media_of_one_name_are_told_apart_by_uid() {
     let both = material("m", GREY) + &material("n", GREY);
     let moved = MESH.replace("<uid>7<", "<uid>8<").replace("pos=\"0 0 0\"", "pos=\"0 0 5\"");

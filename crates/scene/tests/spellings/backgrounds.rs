@@ -82,6 +82,9 @@ fn surroundings_may_be_a_texture_that_is_turned_and_scaled() {
     let scale = "<emission_scale><material_name>background</material_name><measure>luminance</measure><value>100</value></emission_scale>";
     let even = "<diffuse><base_emission><uniform><value>5</value></uniform></base_emission></diffuse>";
     let radiance = surroundings(&scene_with(&background(even, scale), &[]));
+    let of_another = scale.replace(">background<", ">even<");
+    let told = ["W0321 <emission_scale> has no effect: the background's material is not even"];
+    assert_eq!(surroundings(&scene_with(&background(even, &of_another), &told)), 5.0);
     let unit = indigo_spectrum::Spectrum::uniform(1.0).luminance();
     assert!((radiance * unit / 100.0 - 1.0).abs() < 1e-6, "{radiance}");
     let lit = scene_with(&map(scale, ""), &[]);

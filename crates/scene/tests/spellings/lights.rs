@@ -284,7 +284,7 @@ fn what_cannot_shine_is_told() {
     let sphere = "<sphere><center>0 0 0</center><radius>1</radius><material_name>m</material_name></sphere>";
     scene_with(
         &format!("{CAMERA}{LIGHT}{}{sphere}", material("m", &lit)),
-        &["W0319 a sphere of an emitting material gives no light"],
+        &["W0319 a sphere of a material with <emission> (format version 1.1) gives no light"],
     );
     let blend = "<blend><blend_factor>0.5</blend_factor><a_name>m</a_name><b_name>n</b_name></blend>";
     let blended = format!(
@@ -294,7 +294,10 @@ fn what_cannot_shine_is_told() {
         material("b", blend),
         sphere.replace(">m<", ">b<")
     );
-    scene_with(&blended, &["W0319 a blend of an emitting material gives no light"]);
+    scene_with(
+        &blended,
+        &["W0319 a blend of a material with <emission> (format version 1.1) gives no light"],
+    );
     let other = "<coating><absorption><constant><uniform><value>0</value></uniform></constant></absorption><substrate_material_name>m</substrate_material_name></coating>";
     let coated = |kind: &str| {
         format!(

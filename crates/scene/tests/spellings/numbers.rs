@@ -34,6 +34,13 @@ fn a_number_may_be_written_as_an_even_spectrum() {
     }
 }
 
+/// A value by itself is no such spectrum.
+#[test]
+fn a_value_without_its_spectrum_is_told() {
+    let found = findings(&loaded(&of("<phong><ior>1.5</ior><exponent><value>90</value></exponent></phong>")));
+    assert!(found.iter().any(|(_, message)| message.contains("<value>")), "{found:?}");
+}
+
 #[test]
 fn maps_of_numbers_that_are_not_rendered_are_told() {
     let map = "<texture><path>a.bmp</path></texture>";

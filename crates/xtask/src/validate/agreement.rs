@@ -20,7 +20,8 @@ const SAMPLES: u32 = 32;
 const QUICK_DEMAND: f64 = 1e-1;
 /// In the full form, where Metropolis sampling walks quickly, and where slowly.
 const FULL_DEMAND: [f64; 2] = [2e-2, 4e-2];
-/// How many times the samples the full form takes: with four times the renders noise is a quarter of the quick form's.
+/// How many times the samples the full form takes: with four times the renders a quarter of what the quick form
+/// resolves is resolved.
 const FULL_TIMES: u32 = 2;
 /// Share of its light that half of the blocks must show, in the quick form and in the full one: Metropolis sampling gathers little
 /// in dark corners.

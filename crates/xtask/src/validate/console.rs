@@ -199,10 +199,13 @@ impl Console {
         let head = [self.stamp.bytes().to_vec(), samples.to_le_bytes().to_vec(), text];
         let files = check.files.iter().flat_map(|(name, bytes)| [name.as_bytes(), &bytes[..]]);
         let stamp = Stamp::of(head.iter().map(Vec::as_slice).chain(files));
-        if !(stamp.is_kept(&scene.with_extension("stamp"))? && self.keep == Keep::Resume) {
-            self.clear(check, renderer);
+        let mark = scene.with_extension("stamp");
+        if self.keep == Keep::Resume && stamp.is_in(&mark) {
+            return Ok(());
         }
-        Ok(())
+        // In this order: were it ended in between, pictures of another program would pass for this one's.
+        self.clear(check, renderer);
+        stamp.write(&mark)
     }
 
     /// Takes a renderer's pictures away: thousands of them would fill folders that nobody looks at. The scenes stay.

@@ -33,17 +33,21 @@ impl Stamp {
         self.0.to_le_bytes()
     }
 
-    /// Whether a file beside pictures has it; writes it there if not.
+    fn words(self) -> String {
+        format!("{:016x}\n", self.0)
+    }
+
+    /// Whether a file beside pictures has it.
+    pub fn is_in(self, path: &Path) -> bool {
+        std::fs::read_to_string(path).is_ok_and(|there| there == self.words())
+    }
+
+    /// Writes it there, once no pictures of another are left.
     ///
     /// # Errors
     /// What could not be written.
-    pub fn is_kept(self, path: &Path) -> Result<bool, String> {
-        let words = format!("{:016x}\n", self.0);
-        if std::fs::read_to_string(path).is_ok_and(|there| there == words) {
-            return Ok(true);
-        }
-        std::fs::write(path, words).map_err(|error| format!("{}: {error}", path.display()))?;
-        Ok(false)
+    pub fn write(self, path: &Path) -> Result<(), String> {
+        std::fs::write(path, self.words()).map_err(|error| format!("{}: {error}", path.display()))
     }
 }
 
@@ -61,11 +65,13 @@ mod tests {
     }
 
     #[test]
-    fn a_stamp_is_kept_once_it_was_written() {
+    fn a_stamp_is_there_once_it_was_written() {
         let path = std::env::temp_dir().join(format!("indigo-stamp-{}", std::process::id()));
         let [first, second] = [Stamp::of([&b"one"[..]]), Stamp::of([&b"two"[..]])];
-        let said = [first, first, second, second].map(|stamp| stamp.is_kept(&path));
+        let before = first.is_in(&path);
+        let written = first.write(&path);
+        let after = [first, second].map(|stamp| stamp.is_in(&path));
         drop(std::fs::remove_file(&path));
-        assert_eq!(said, [Ok(false), Ok(true), Ok(false), Ok(true)]);
+        assert_eq!((before, written, after), (false, Ok(()), [true, false]));
     }
 }

@@ -76,8 +76,10 @@ pub fn render(checks: &[Check], renders: &mut [Rendered], console: &Console, for
         let job = json!({"name": check.name, "scene": check.mitsuba, "samples": form.demand(check).samples,
                          "seeds": form.seeds(), "first_seed": first_seed(check), "out": path(check)});
         let stamp = Stamp::of([SCRIPT.as_bytes(), job.to_string().as_bytes()]);
-        if !(stamp.is_kept(&path(check).with_extension("stamp"))? && console.keep == Keep::Resume) {
+        let mark = path(check).with_extension("stamp");
+        if !(console.keep == Keep::Resume && stamp.is_in(&mark)) {
             drop(std::fs::remove_file(path(check)));
+            stamp.write(&mark)?;
         }
         if !path(check).exists() {
             jobs.push(job);
