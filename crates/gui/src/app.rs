@@ -184,12 +184,12 @@ impl App {
     fn act(&mut self, context: &Context) {
         while !self.state.actions.is_empty() {
             for action in std::mem::take(&mut self.state.actions) {
-                match self.state.allowed(action) {
-                    Some(action) => self.do_action(action, context),
-                    // The question has its part of a frame behind it already.
-                    None => context.request_repaint(),
+                if let Some(action) = self.state.allowed(action) {
+                    self.do_action(action, context);
                 }
             }
+            // Panels and questions have their parts of the frame behind them already.
+            context.request_repaint();
         }
     }
 

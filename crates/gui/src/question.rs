@@ -1,6 +1,7 @@
 //! What the user is asked before anything else goes on.
 
 use crate::action::{Action, Ask};
+use crate::engine::Command;
 use crate::state::State;
 use crate::words;
 use std::collections::VecDeque;
@@ -14,6 +15,8 @@ pub enum Question {
     Unsaved(Box<Action>),
     /// What becomes of films that could not be saved before something is done.
     UnsavedFilm(Box<Action>),
+    /// What becomes of samples that are in no file before something is done.
+    LostSamples(Box<Action>),
     /// A path, where the desktop has no dialog for it.
     Path(PathLine),
 }
@@ -24,7 +27,8 @@ impl Question {
         match (self, other) {
             (Self::Close, Self::Close)
             | (Self::Unsaved(_), Self::Unsaved(_))
-            | (Self::UnsavedFilm(_), Self::UnsavedFilm(_)) => true,
+            | (Self::UnsavedFilm(_), Self::UnsavedFilm(_))
+            | (Self::LostSamples(_), Self::LostSamples(_)) => true,
             (Self::Path(one), Self::Path(other)) => one.ask == other.ask,
             _ => false,
         }
@@ -111,6 +115,11 @@ impl State {
         }
         if self.unsaved_films > 0 && action.leaves_film() {
             self.ask(Question::UnsavedFilm(Box::new(action)));
+            return None;
+        }
+        // A slip of the mouse may ask for this.
+        if matches!(action, Action::Command(Command::SetRegion(..))) && self.would_lose_samples() {
+            self.ask(Question::LostSamples(Box::new(action)));
             return None;
         }
         Some(action)

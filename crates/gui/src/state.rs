@@ -113,6 +113,8 @@ pub struct State {
     pub set_aside: BTreeMap<String, SceneFile>,
     /// How many films are in memory alone, since they could not be saved.
     pub unsaved_films: usize,
+    /// How many samples the film has that was saved last, opened, or given up.
+    pub kept_samples: u64,
     /// What is done once they are saved.
     pub after_saving: Option<Box<Action>>,
     /// A text that is read as a whole, and the panel that it is of.
@@ -198,6 +200,7 @@ impl State {
             sources: Arc::default(),
             file: None,
             unsaved_films: 0,
+            kept_samples: 0,
             after_saving: None,
             set_aside: BTreeMap::new(),
             reading: None,

@@ -232,6 +232,7 @@ texts! {
     SLAVE_ERRORS = "Errors";
     THIS_MACHINE = "this machine";
     RENDERS = "rendering";
+    HAS_ENDED = "ended";
 }
 
 // Log and findings.
@@ -263,6 +264,10 @@ texts! {
 texts! {
     FILM_HEAD = "The last render could not be saved";
     FILM_SAVE = "Save again";
+    FILM_SAVE_AS = "Save elsewhere…";
+    SAMPLES_HEAD = "Give up the picture so far?";
+    SAMPLES_SAVE = "Save it first…";
+    SAMPLES_DISCARD = "Give it up";
     REGION_OF_UNSAVED = "the last render could not be saved: save it again before another region is rendered";
     DEVELOPING_FAILED = "The picture cannot be developed by an error of the program, which is a bug: please report it";
     ESTIMATE_ERROR = "Estimate the error";

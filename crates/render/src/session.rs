@@ -19,6 +19,8 @@ use std::time::{Duration, Instant};
 
 /// No epoch need be shorter: nobody waits for less than a blink.
 const SHORTEST_EPOCH: Duration = Duration::from_millis(50);
+/// The first epoch, where no error is looked for.
+const FIRST_EPOCH: Duration = Duration::from_millis(100);
 
 /// Why a session ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -266,12 +268,12 @@ impl Session {
         }
     }
 
-    /// How long this epoch is: where an error is looked for, no more than a quarter of the time so far, so that a picture
-    /// that is soon good enough soon ends.
+    /// How long this epoch is: no longer than the time so far, so that there soon is something to look at; where an error is
+    /// looked for no more than a quarter of it, so that a picture that is soon good enough soon ends.
     fn epoch_now(&self) -> Duration {
         match self.halt.relative_error {
             Some(_) => self.epoch.min((self.elapsed() / 4).max(SHORTEST_EPOCH)),
-            None => self.epoch,
+            None => self.epoch.min(self.elapsed().max(FIRST_EPOCH)),
         }
     }
 

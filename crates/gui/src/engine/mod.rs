@@ -19,6 +19,7 @@ use crate::words;
 use crate::work::Work;
 use eframe::egui;
 use indigo_diag::SourceMap;
+use indigo_film::SavedFilm;
 use indigo_front::flags::Arguments;
 use indigo_front::messages::Messages;
 use indigo_imaging::PictureSettings;
@@ -65,6 +66,8 @@ pub enum Command {
     DiscardUnsaved,
     /// Write one file.
     Save(OneFile, PathBuf),
+    /// A film is in a file. From the thread that writes.
+    FilmIsSaved(Arc<SavedFilm>),
     /// End it all, with all files or without; not at all where they are wanted and cannot be written.
     Quit {
         /// Whether the render's files are written.
@@ -145,6 +148,8 @@ pub enum Update {
     Done(Turn),
     /// So many films are in memory alone, since they could not be saved.
     Unsaved(usize),
+    /// A film of so many samples is in a file.
+    Kept(u64),
     /// Everything has ended: the window may close.
     Gone,
 }

@@ -179,6 +179,7 @@ impl Worker {
             Command::SaveAll => self.save_all(),
             Command::DiscardUnsaved => self.discard_unsaved(),
             Command::Save(what, path) => self.save(what, path),
+            Command::FilmIsSaved(film) => self.film_is_saved(&film),
         }
     }
 

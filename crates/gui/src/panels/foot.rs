@@ -30,7 +30,7 @@ pub fn foot(ui: &mut Ui, state: &mut State) {
     let read = match state.foot {
         Foot::Log => log(ui, state),
         Foot::Findings => findings(ui, state),
-        Foot::Slaves => super::slaves::slaves(ui, state.slaves.as_deref()),
+        Foot::Slaves => super::slaves::slaves(ui, state.slaves.as_deref(), state.is_under_way()),
     };
     if let Some(text) = read {
         state.reading = Some((state.foot, text));

@@ -20,8 +20,9 @@ pub fn network(ui: &mut Ui, state: &mut State) {
     ui.add_enabled_ui(can_change, |ui| {
         for role in Part::ROLES {
             let choice = RadioButton::new(state.part.role == role, words::role(role));
-            if ui.add(choice).on_hover_text(words::role_hint(role)).clicked() {
+            if ui.add(choice).on_hover_text(words::role_hint(role)).clicked() && state.part.role != role {
                 state.part.role = role;
+                state.forget_slaves();
             }
         }
         if state.part.role.is_some() {

@@ -1,12 +1,13 @@
 //! What the user is asked before anything else goes on.
 
-use crate::action::Action;
+use crate::action::{Action, Ask};
 use crate::engine::Command;
 use crate::log::Weight;
 use crate::question::{PathLine, Question};
 use crate::state::State;
 use crate::{theme, words};
 use eframe::egui::{Button, Context, Id, Key, Modal, Response, TextEdit, Ui};
+use indigo_render::output::OneFile;
 
 /// Shows a question, if there is one, and does what is answered.
 pub fn questions(context: &Context, state: &mut State) {
@@ -15,6 +16,7 @@ pub fn questions(context: &Context, state: &mut State) {
         Question::Close => closing(context, state, is_new),
         Question::Unsaved(action) => unsaved(context, state, action, is_new),
         Question::UnsavedFilm(action) => unsaved_film(context, state, action, is_new),
+        Question::LostSamples(action) => lost_samples(context, state, action, is_new),
         Question::Path(line) => path(context, state, line),
     };
     if let Some(question) = is_left {
@@ -66,11 +68,13 @@ fn unsaved_film(context: &Context, state: &mut State, action: Box<Action>, is_ne
         state.act(*action);
         return None;
     }
-    let answers = [words::FILM_SAVE, words::UNSAVED_DISCARD, words::CANCEL];
+    let answers = [words::FILM_SAVE, words::FILM_SAVE_AS, words::UNSAVED_DISCARD, words::CANCEL];
     match choose(context, words::FILM_HEAD, &words::unsaved_films(state.unsaved_films), answers, is_new) {
         None => return Some(Question::UnsavedFilm(action)),
         Some(0) => state.save_films_before(action),
-        Some(1) => {
+        // What was wanted can be asked for again then: whoever is asked for a path may think otherwise.
+        Some(1) => state.act(Action::Ask(Ask::Save(OneFile::Film))),
+        Some(2) => {
             state.discard_films();
             state.act(*action);
         }
@@ -79,8 +83,34 @@ fn unsaved_film(context: &Context, state: &mut State, action: Box<Action>, is_ne
     None
 }
 
+/// What becomes of samples that are in no file before another part of the picture is rendered.
+fn lost_samples(context: &Context, state: &mut State, action: Box<Action>, is_new: bool) -> Option<Question> {
+    if !state.would_lose_samples() {
+        state.act(*action);
+        return None;
+    }
+    let spp = state.progress.map_or(0.0, |progress| progress.samples_per_pixel);
+    let answers = [words::SAMPLES_SAVE, words::SAMPLES_DISCARD, words::CANCEL];
+    match choose(context, words::SAMPLES_HEAD, &words::lost_samples(spp), answers, is_new) {
+        None => return Some(Question::LostSamples(action)),
+        Some(0) => state.act(Action::Ask(Ask::Save(OneFile::Film))),
+        Some(1) => {
+            state.give_up_samples();
+            state.act(*action);
+        }
+        Some(_) => {}
+    }
+    None
+}
+
 /// The number of the answer that was chosen; the last where the question is closed.
-fn choose(context: &Context, head: &str, text: &str, answers: [&str; 3], is_new: bool) -> Option<usize> {
+fn choose<const N: usize>(
+    context: &Context,
+    head: &str,
+    text: &str,
+    answers: [&str; N],
+    is_new: bool,
+) -> Option<usize> {
     let modal = Modal::new(Id::unique("question")).show(context, |ui| {
         ui.set_width(380.0);
         ui.heading(head);
@@ -154,7 +184,6 @@ fn path_line(ui: &mut Ui, line: &mut PathLine) -> Option<bool> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::action::Ask;
     use crate::engine::Phase;
     use crate::panels::keys;
     use crate::recent::Recent;

@@ -20,8 +20,8 @@ const COLUMNS: [(&str, f32, bool); 9] = [
     (words::SLAVE_ERRORS, 50.0, true),
 ];
 
-/// See the module; the error that is to be read as a whole.
-pub fn slaves(ui: &mut Ui, status: Option<&Status>) -> Option<String> {
+/// The table, which is of a render that goes on or has ended; the error that is to be read as a whole.
+pub fn slaves(ui: &mut Ui, status: Option<&Status>, goes_on: bool) -> Option<String> {
     let status = status?;
     if status.slaves.is_empty() && status.own.is_none() {
         ui.weak(words::NO_SLAVES);
@@ -36,12 +36,13 @@ pub fn slaves(ui: &mut Ui, status: Option<&Status>) -> Option<String> {
             ui.end_row();
             if let Some(own) = status.own {
                 let threads = own.threads.to_string();
-                let rate = scaled(own.samples_per_second);
-                let texts = [words::THIS_MACHINE, "", words::RENDERS, &threads, &rate, "", "", "", ""];
+                let rate = if goes_on { scaled(own.samples_per_second) } else { String::new() };
+                let state = if goes_on { words::RENDERS } else { words::HAS_ENDED };
+                let texts = [words::THIS_MACHINE, "", state, &threads, &rate, "", "", "", ""];
                 line(ui, &texts, None);
             }
             for slave in &status.slaves {
-                if of_slave(ui, slave) {
+                if of_slave(ui, slave, goes_on) {
                     read.clone_from(&slave.last_error);
                 }
             }
@@ -54,8 +55,9 @@ pub fn slaves(ui: &mut Ui, status: Option<&Status>) -> Option<String> {
 }
 
 /// Whether its error is to be read.
-fn of_slave(ui: &mut Ui, slave: &SlaveStatus) -> bool {
-    let rate = if slave.presence.is_there() { scaled(slave.samples_per_second) } else { String::new() };
+fn of_slave(ui: &mut Ui, slave: &SlaveStatus, goes_on: bool) -> bool {
+    let rate =
+        if goes_on && slave.presence.is_there() { scaled(slave.samples_per_second) } else { String::new() };
     let texts = [
         &*slave.name,
         &slave.peer.to_string(),

@@ -41,6 +41,7 @@ impl State {
             Update::Line(line) => self.tell(line.weight, line.text),
             Update::Done(how) => self.turn_has_ended(how),
             Update::Unsaved(n) => self.take_unsaved_films(n),
+            Update::Kept(samples) => self.kept_samples = samples,
             Update::Gone => self.act(Action::Close),
         }
     }
@@ -48,15 +49,23 @@ impl State {
     fn take_phase(&mut self, phase: Phase) {
         // What is rendered next may have no slaves; those of a render that has ended are still worth a look.
         if phase == Phase::Rendering && self.phase != Phase::Paused || phase == Phase::Slave {
-            self.slaves = None;
+            self.forget_slaves();
             if phase == Phase::Slave {
                 self.progress = None;
             }
-            if self.foot == Foot::Slaves {
-                self.foot = Foot::Log;
-            }
+        }
+        if matches!(phase, Phase::Ready | Phase::Empty) {
+            self.forget_slaves();
         }
         self.phase = phase;
+    }
+
+    /// The table of slaves is of no render any more.
+    pub fn forget_slaves(&mut self) {
+        self.slaves = None;
+        if self.foot == Foot::Slaves {
+            self.foot = Foot::Log;
+        }
     }
 
     /// A scene is there, to be rendered in a way that is told where it was loaded.
@@ -140,6 +149,23 @@ mod tests {
         let action = state.actions.pop().expect("the next scene");
         assert!(matches!(action, Action::NextInQueue) && !action.leaves_scene());
         assert!(Action::RunQueue.leaves_scene(), "whoever presses the button can be asked");
+    }
+
+    #[test]
+    fn the_table_of_slaves_goes_with_its_render() {
+        let mut state = state();
+        let status = || Update::Slaves(Box::default());
+        for (phase, stays) in [
+            (Phase::Paused, true),
+            (Phase::Halted(indigo_render::HaltReason::Stopped), true),
+            (Phase::Ready, false),
+            (Phase::Empty, false),
+        ] {
+            state.take(status());
+            assert_eq!(state.foot, Foot::Slaves);
+            state.take(Update::Phase(phase.clone()));
+            assert_eq!((state.slaves.is_some(), state.foot == Foot::Slaves), (stays, stays), "{phase:?}");
+        }
     }
 
     #[test]

@@ -2,13 +2,32 @@
 
 use super::State;
 use crate::action::Action;
-use crate::engine::Command;
+use crate::engine::{Command, Phase};
 use crate::question::Question;
 
 impl State {
     /// Whether there is a film to be saved now: one that grows, or one that could not be saved.
     pub fn can_save_now(&self) -> bool {
         self.has_growing_film() || self.unsaved_films > 0
+    }
+
+    /// Whether another film in its place would lose samples that are in no file, and in none that the render will write.
+    /// Less than a tenth of them is soon rendered again.
+    pub fn would_lose_samples(&self) -> bool {
+        // Under a name that was given, the next film would take this one's place.
+        let is_named = self.arguments.output.is_some();
+        let writes_film = !is_named && self.facts.as_ref().is_some_and(|facts| facts.output.igi);
+        let has_film = self.has_growing_film() || matches!(self.phase, Phase::Halted(_));
+        has_film && !writes_film && self.samples() / 10 * 9 > self.kept_samples
+    }
+
+    /// Gives up what is in no file.
+    pub fn give_up_samples(&mut self) {
+        self.kept_samples = self.samples();
+    }
+
+    fn samples(&self) -> u64 {
+        self.progress.map_or(0, |progress| progress.samples)
     }
 
     /// Closes the window once everything is saved.
@@ -47,6 +66,8 @@ mod tests {
     use crate::recent::Recent;
     use crate::work::Work;
     use indigo_front::flags::Arguments;
+    use indigo_render::{HaltReason, Progress};
+    use std::time::Duration;
 
     fn state() -> State {
         State::new(Arguments::default(), Recent::default())
@@ -80,6 +101,40 @@ mod tests {
         for action in [Action::Open("picture.png".into()), Action::NextInQueue] {
             assert!(state.allowed(action).is_some(), "nothing is lost by that");
         }
+    }
+
+    fn rendered(samples: u64) -> Update {
+        let progress = Progress {
+            samples,
+            samples_per_pixel: 1.0,
+            samples_per_second: 0.0,
+            rays: 0,
+            elapsed: Duration::ZERO,
+            left: None,
+            fraction: None,
+            relative_error: None,
+        };
+        Update::Progress(progress, None)
+    }
+
+    #[test]
+    fn another_region_gives_up_no_samples_without_a_question() {
+        let region = || Action::Command(Command::SetRegion(None, Work::endless()));
+        let mut state = state();
+        state.take(rendered(1000));
+        assert!(state.allowed(region()).is_some(), "nothing was rendered here");
+        for phase in [Phase::Rendering, Phase::Paused, Phase::Halted(HaltReason::Stopped)] {
+            state.take(Update::Phase(phase));
+            assert!(state.allowed(region()).is_none());
+            assert!(matches!(asked(&mut state), Some(Question::LostSamples(_))));
+            assert!(state.allowed(Action::Restart).is_some(), "a restart is no slip of the mouse");
+        }
+        state.take(Update::Kept(950));
+        assert!(state.allowed(region()).is_some(), "nearly all is in a file");
+        state.take(rendered(2000));
+        assert!(state.allowed(region()).is_none());
+        state.give_up_samples();
+        assert!(state.allowed(region()).is_some());
     }
 
     #[test]

@@ -16,7 +16,14 @@ pub fn loaded(path: &str, seconds: f64) -> String {
 
 /// A scene with errors.
 pub fn not_rendered(path: &str) -> String {
-    format!("{path} cannot be rendered: see the findings below")
+    format!("{path} cannot be rendered")
+}
+
+/// What another part of the picture costs.
+pub fn lost_samples(samples_per_pixel: f64) -> String {
+    format!(
+        "Another region begins a new film. The one so far, of {samples_per_pixel:.1} samples per pixel, is in no file: saved as IGI it can be continued later."
+    )
 }
 
 /// A film will be gone on with.

@@ -98,11 +98,18 @@ fn a_scene_with_errors_has_had_its_turn() {
     folder.write("scene.igs", "<scene><camera></scene>");
     let engine = Engine::new(&Context::default()).expect("threads");
     engine.send(Command::Open(Box::new(Request { starts: true, ..folder.request() })));
+    let mut lines = vec![];
     let how = wait_for(&engine, "end", |update| match update {
         Update::Done(how) => Some(how),
+        Update::Line(line) => {
+            lines.push(line.text);
+            None
+        }
         _ => None,
     });
     assert_eq!(how, Turn::Failed);
+    // The log keeps why, whatever is loaded next.
+    assert!(lines.iter().any(|line| line.contains("scene.igs:1:")), "{lines:?}");
 }
 
 /// An engine with a film that could not be saved: where its folder was there is a file.
@@ -157,6 +164,51 @@ fn a_film_that_cannot_be_saved_is_kept_until_it_is() {
     assert!(Path::new(&folder.path("away/picture.png")).exists());
     engine.send(Command::Quit { saves: true });
     wait_for(&engine, "end", |update| matches!(update, Update::Gone).then_some(()));
+}
+
+/// Whoever has saved it elsewhere need not be asked what becomes of it.
+#[test]
+fn a_film_that_is_saved_elsewhere_is_in_memory_alone_no_more() {
+    let folder = Folder::new("elsewhere");
+    let engine = unsaved(&folder);
+    engine.send(Command::Save(OneFile::Film, folder.path("other.igi").into()));
+    assert_eq!(wait_for(&engine, "answer", n_unsaved), 0);
+    engine.send(Command::Quit { saves: true });
+    wait_for(&engine, "end", |update| matches!(update, Update::Gone).then_some(()));
+}
+
+/// What is told of a film that is opened is of that film.
+#[test]
+fn a_film_of_the_open_scene_tells_how_far_it_came() {
+    let folder = Folder::new("came");
+    let engine = rendering(&folder);
+    engine.send(Command::Stop);
+    let mut last = None;
+    wait_for(&engine, "end", |update| match update {
+        Update::Progress(progress, _) => {
+            last = Some(progress.samples);
+            None
+        }
+        Update::Done(_) => Some(()),
+        _ => None,
+    });
+    let path = folder.path("picture.igi");
+    engine.send(Command::Start(Work::endless(), Box::new(Part::of(&Arguments::default()))));
+    wait_for(&engine, "more", |update| match update {
+        Update::Progress(progress, _) => (Some(progress.samples) > last).then_some(()),
+        _ => None,
+    });
+    std::fs::copy(&path, folder.path("before.igi")).expect("the film");
+    engine.send(Command::OpenFilm(folder.path("before.igi").into()));
+    let kept = wait_for(&engine, "film", |update| match update {
+        Update::Progress(progress, _) => {
+            last = Some(progress.samples);
+            None
+        }
+        Update::Kept(samples) => Some(samples),
+        _ => None,
+    });
+    assert_eq!(last, Some(kept));
 }
 
 /// A queue does not wait for anybody, and the disk may have room again in the morning.

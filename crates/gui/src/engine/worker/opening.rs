@@ -7,13 +7,14 @@ use crate::log::Weight;
 use crate::queue::Turn;
 use crate::words;
 use crate::work::Work;
-use indigo_film::SavedFilm;
+use indigo_film::{FilmRecord, FilmSize, SavedFilm};
 use indigo_imaging::{Exposure, PictureSettings, ToneMapping};
-use indigo_render::Session;
 use indigo_render::saved::read_film;
+use indigo_render::{Progress, Session};
 use indigo_scene::{FOREGROUND_ALPHA, Stop};
 use std::path::Path;
 use std::sync::Arc;
+use std::time::Duration;
 
 impl Worker {
     /// Loads a scene, after what is rendered has ended.
@@ -64,6 +65,10 @@ impl Worker {
         }
         if outcome.scene.is_none() {
             self.say(Weight::Error, words::not_rendered(&outcome.request.path));
+            // The list of findings is soon that of another scene, when a queue goes on.
+            for finding in outcome.findings.iter().filter(|finding| finding.weight == Weight::Error) {
+                self.say(Weight::Error, &*finding.head);
+            }
         }
         // Last, since they are shown then.
         self.outlet.send(Update::Findings(outcome.findings, outcome.sources));
@@ -119,7 +124,25 @@ impl Worker {
                 self.outlet.send(Update::Phase(Phase::Empty));
             }
         }
+        if let Some(record) = &film.record {
+            self.outlet.tell_progress(progress_of(record, film.film.size));
+            self.outlet.send(Update::Kept(record.samples));
+        }
         self.film = Some(film);
+    }
+}
+
+/// How far a film came when it was rendered.
+fn progress_of(record: &FilmRecord, size: FilmSize) -> Progress {
+    Progress {
+        samples: record.samples,
+        samples_per_pixel: record.samples as f64 / size.pixels() as f64,
+        samples_per_second: 0.0,
+        rays: 0,
+        elapsed: Duration::try_from_secs_f64(record.elapsed_s).unwrap_or_default(),
+        left: None,
+        fraction: None,
+        relative_error: None,
     }
 }
 

@@ -1,8 +1,10 @@
 //! Saving what is there by wish.
 
 use super::{Open, Worker};
+use crate::engine::{Command, Update};
 use crate::log::Weight;
 use crate::words;
+use indigo_film::SavedFilm;
 use indigo_front::messages::Messages as _;
 use indigo_front::{logical_cores, program};
 use indigo_imaging::PictureSettings;
@@ -33,16 +35,31 @@ impl Worker {
             return self.say(Weight::Error, words::NOTHING_TO_SAVE);
         };
         let job = self.open.as_ref().map(|open| job(open, picture.clone()));
+        let to_self = self.to_self.clone();
         self.writer.write(move |messages| {
             let written = match job {
                 Some(job) => job.save_as(&film, what, &path),
                 None => save_film_as(&film, what, &path, &picture, &program(), logical_cores()),
             };
             match written {
-                Ok(path) => messages.say(&words::saved(&path)),
+                Ok(path) => {
+                    messages.say(&words::saved(&path));
+                    if what == OneFile::Film {
+                        // The engine may have ended.
+                        drop(to_self.send(Command::FilmIsSaved(film)));
+                    }
+                }
                 Err(error) => messages.error(&error.to_string()),
             }
         });
+    }
+
+    /// A film is in a file, wherever that is.
+    pub(super) fn film_is_saved(&mut self, film: &Arc<SavedFilm>) {
+        if let Some(record) = &film.record {
+            self.outlet.send(Update::Kept(record.samples));
+        }
+        self.forget_unsaved(film);
     }
 }
 

@@ -46,7 +46,13 @@ impl Worker {
 
     /// The film that was opened or rendered last is gone on with, and will be saved with what is added.
     pub(super) fn go_on_with_unsaved(&mut self) {
-        let Some(film) = &self.film else { return };
+        if let Some(film) = self.film.clone() {
+            self.forget_unsaved(&film);
+        }
+    }
+
+    /// A film is not in memory alone any more.
+    pub(super) fn forget_unsaved(&mut self, film: &Arc<SavedFilm>) {
         let before = self.unsaved.len();
         self.unsaved.retain(|unsaved| !Arc::ptr_eq(&unsaved.film, film));
         if self.unsaved.len() < before {
