@@ -34,10 +34,15 @@ impl Ask {
         matches!(self, Self::Save(_) | Self::NewKey)
     }
 
-    /// A path that was given, which gets the ending of its kind where it has none.
+    /// A path that was given, which gets the ending of its kind where it has another or none.
     pub fn completed(self, path: PathBuf) -> PathBuf {
         match self {
-            Self::Save(what) if path.extension().is_none() => path.with_extension(words::ending(what)),
+            Self::Save(what) if !has_ending(&path, &[words::ending(what)]) => {
+                let mut longer = path.into_os_string();
+                longer.push(".");
+                longer.push(words::ending(what));
+                longer.into()
+            }
             _ => path,
         }
     }
@@ -105,6 +110,8 @@ mod tests {
         let completed = |what, path: &str| Ask::Save(what).completed(path.into());
         assert_eq!(completed(OneFile::Luminances, "a/b"), PathBuf::from("a/b.exr"));
         assert_eq!(completed(OneFile::Picture, "a/b.PNG"), PathBuf::from("a/b.PNG"));
+        assert_eq!(completed(OneFile::Picture, "a/b.jpg"), PathBuf::from("a/b.jpg.png"));
+        assert_eq!(completed(OneFile::Luminances, "a/b.igi"), PathBuf::from("a/b.igi.exr"));
         assert_eq!(Ask::NewKey.completed("key".into()), PathBuf::from("key"));
     }
 }

@@ -11,10 +11,11 @@ use crate::panels::{self, Textures};
 use crate::recent::Recent;
 use crate::scene_file::{NotSaved, SceneFile};
 use crate::state::{Foot, State, Tab};
-use crate::{signals, theme, words};
+use crate::{LEAST_SIZE, signals, theme, words};
 use answers::Answer;
 use eframe::egui::{
-    self, CentralPanel, Context, Frame, Margin, Panel, TextureFilter, TextureOptions, Ui, ViewportCommand,
+    self, CentralPanel, Context, Frame, Margin, Panel, TextureFilter, TextureOptions, Ui, Vec2,
+    ViewportCommand,
 };
 use indigo_front::flags::{Arguments, Role};
 use std::path::{Path, PathBuf};
@@ -39,6 +40,8 @@ pub struct App {
     closes_then: bool,
     /// Whether the engine has ended.
     is_gone: bool,
+    /// The least size of the window on this screen, in points.
+    least_size: Vec2,
 }
 
 impl App {
@@ -71,6 +74,7 @@ impl App {
             writing: Writing::default(),
             closes_then: false,
             is_gone: false,
+            least_size: LEAST_SIZE,
         }
     }
 
@@ -96,6 +100,21 @@ impl App {
         }
         let dropped = context.input(|input| input.raw.dropped_files.clone());
         self.state.take_dropped(dropped.iter().map(|file| file.path().to_path_buf()).collect());
+    }
+
+    /// On a screen that is smaller than the least window, as those of few points are, the window may be smaller, too.
+    fn fit_to_screen(&mut self, context: &Context) {
+        let Some(screen) = context.input(|input| input.viewport().monitor_size) else { return };
+        let least = LEAST_SIZE.min(screen);
+        if self.least_size == least {
+            return;
+        }
+        self.least_size = least;
+        context.send_viewport_cmd(ViewportCommand::MinInnerSize(least));
+        let size = context.input(|input| input.viewport().inner_rect).map_or(least, |rect| rect.size());
+        if size.x > screen.x || size.y > screen.y {
+            context.send_viewport_cmd(ViewportCommand::InnerSize(size.min(screen)));
+        }
     }
 
     fn complain(&mut self, text: String) {
@@ -290,6 +309,7 @@ impl eframe::App for App {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         let context = ui.ctx().clone();
         self.hear(&context);
+        self.fit_to_screen(&context);
         panels::keys(&context, &mut self.state);
         let bar = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(8, 0));
         let state = &mut self.state;

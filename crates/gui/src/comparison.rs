@@ -34,6 +34,14 @@ pub struct Comparison {
     pub picture: Option<(PathBuf, Arc<ColorImage>)>,
 }
 
+impl Comparison {
+    /// The name of the other picture.
+    pub fn name(&self) -> Option<String> {
+        let (path, _) = self.picture.as_ref()?;
+        Some(path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned())
+    }
+}
+
 impl Default for Comparison {
     fn default() -> Self {
         Self { layout: Layout::Off, wipe: 0.5, picture: None }

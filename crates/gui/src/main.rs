@@ -31,7 +31,7 @@ use std::process::ExitCode;
 /// The size of the window when it is opened for the first time, in points.
 const FIRST_SIZE: [f32; 2] = [1280.0, 800.0];
 /// The least that all panels fit in.
-const LEAST_SIZE: [f32; 2] = [960.0, 600.0];
+const LEAST_SIZE: egui::Vec2 = egui::vec2(960.0, 600.0);
 
 fn main() -> ExitCode {
     ExitCode::from(run())

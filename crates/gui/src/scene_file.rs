@@ -91,7 +91,7 @@ impl NotSaved {
     pub fn in_words(self) -> String {
         match self {
             Self::ChangedElsewhere(path) => words::changed_elsewhere(&path),
-            Self::Because(words) => words,
+            Self::Because(words) => words::nothing_saved(&words),
         }
     }
 }

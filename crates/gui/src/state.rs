@@ -105,6 +105,8 @@ pub struct State {
     pub log: Log,
     /// What was found in the scene.
     pub findings: Vec<Finding>,
+    /// The path of the scene in which that was, whether or not it could be opened.
+    pub findings_of: Option<String>,
     /// Its files.
     pub sources: Arc<SourceMap>,
     /// Its elements, once they were asked for.
@@ -197,6 +199,7 @@ impl State {
             memory: None,
             log: Log::default(),
             findings: vec![],
+            findings_of: None,
             sources: Arc::default(),
             file: None,
             unsaved_films: 0,

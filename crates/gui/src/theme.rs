@@ -59,6 +59,9 @@ pub fn set(context: &Context) {
             visuals.widgets.noninteractive.fg_stroke.color = Color32::from_gray(190);
         } else {
             visuals.widgets.noninteractive.fg_stroke.color = Color32::from_gray(50);
+            // Boxes and circles that are not ticked, and what is only hinted at, are faint otherwise.
+            visuals.widgets.inactive.bg_fill = Color32::from_gray(200);
+            visuals.weak_text_color = Some(Color32::from_gray(95));
         }
         context.set_visuals_of(theme, visuals);
     }

@@ -12,11 +12,13 @@ pub struct View {
     zoom: Option<f32>,
     /// The point of the picture that is in the middle.
     centre: Pos2,
+    /// Pixels of the screen for a pixel of the picture, as it was drawn last.
+    shown: f32,
 }
 
 impl Default for View {
     fn default() -> Self {
-        Self { zoom: None, centre: Pos2::ZERO }
+        Self { zoom: None, centre: Pos2::ZERO, shown: 1.0 }
     }
 }
 
@@ -40,6 +42,21 @@ impl View {
     /// Whether the picture is as large as fits.
     pub fn is_fitting(&self) -> bool {
         self.zoom.is_none()
+    }
+
+    /// Remembers how large the picture is drawn, on a screen of so many pixels for a point.
+    pub fn is_drawn(&mut self, area: Rect, size: Vec2, pixels_per_point: f32) {
+        self.shown = self.zoom(area, size) * pixels_per_point;
+    }
+
+    /// Pixels of the screen for a pixel of the picture, as it was drawn last.
+    pub fn shown(&self) -> f32 {
+        self.shown
+    }
+
+    /// Whether a pixel of the picture is one of the screen by wish.
+    pub fn is_one_to_one(&self) -> bool {
+        !self.is_fitting() && (self.shown - 1.0).abs() < 1e-3
     }
 
     /// Where a picture of a size is in an area.
@@ -153,6 +170,18 @@ mod tests {
         assert_eq!(view.zoom(area(), SIZE), 64.0);
         view.fit();
         assert_eq!(view.zoom(area(), SIZE), 2.0);
+    }
+
+    #[test]
+    fn what_is_drawn_is_told_in_pixels_of_the_screen() {
+        let mut view = View::default();
+        view.is_drawn(area(), vec2(400.0, 200.0), 1.0);
+        assert_eq!((view.shown(), view.is_one_to_one()), (1.0, false), "it fits by chance");
+        for (zoom, is_one_to_one) in [(0.5, true), (1.0, false)] {
+            view.set_zoom(zoom, area(), SIZE);
+            view.is_drawn(area(), SIZE, 2.0);
+            assert_eq!((view.shown(), view.is_one_to_one()), (2.0 * zoom, is_one_to_one));
+        }
     }
 
     #[test]

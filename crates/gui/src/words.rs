@@ -155,7 +155,9 @@ texts! {
     SAMPLES = "Samples";
     SPP = "Per pixel";
     RATE = "Rate";
-    RAYS = "Rays";
+    RAYS = "Rays of this run";
+    THE_RENDER = "Render";
+    OUTSIDE = "outside the region";
     TIME = "Time";
     TIME_LEFT = "Time left";
     ERROR = "Relative error";

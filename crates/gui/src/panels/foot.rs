@@ -70,6 +70,9 @@ fn findings(ui: &mut Ui, state: &mut State) -> Option<String> {
         return None;
     }
     let mut read = None;
+    if let Some(path) = state.findings_of.as_deref().filter(|path| state.path.as_deref() != Some(path)) {
+        ui.weak(words::not_open(path));
+    }
     ScrollArea::vertical().id_salt("findings").auto_shrink(false).show(ui, |ui| {
         for finding in &state.findings {
             let text = RichText::new(&finding.head).color(theme::of_weight(finding.weight, ui.visuals()));

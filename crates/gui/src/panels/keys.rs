@@ -4,8 +4,8 @@ use super::picture::picture_id;
 use crate::action::{Action, Ask};
 use crate::engine::Command;
 use crate::state::{Gesture, State, Tab, Tool};
-use crate::words;
-use eframe::egui::{Context, Grid, Key, KeyboardShortcut, Memory, Modifiers, Popup, Ui, Window};
+use crate::{theme, words};
+use eframe::egui::{Context, Grid, Key, KeyboardShortcut, Memory, Modifiers, Popup, Ui, Window, pos2};
 use indigo_render::output::OneFile;
 
 /// What the keys of a row do, of which the second argument says the one that was pressed.
@@ -100,6 +100,8 @@ pub fn keys(context: &Context, state: &mut State) {
     }
     let mut is_open = state.shows_keys;
     let window = Window::new(words::KEYS).open(&mut is_open).resizable(false).collapsible(false);
+    // Beside what it explains, as far as there is room.
+    let window = window.default_pos(pos2(12.0, theme::TOOL_BAR + 12.0));
     window.show(context, list);
     state.shows_keys = is_open && state.shows_keys;
 }
@@ -130,6 +132,7 @@ fn list(ui: &mut Ui) {
             ui.end_row();
         }
     });
+    ui.add_space(4.0);
 }
 
 /// Keys as they are written on the keyboard, what is held besides only once.

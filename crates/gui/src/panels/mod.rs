@@ -36,6 +36,9 @@ pub fn side(ui: &mut Ui, state: &mut State) {
         }
     });
     ui.separator();
+    if state.tab == Tab::Scene {
+        scene::bar(ui, state);
+    }
     ui.spacing_mut().scroll.bar_outer_margin = -theme::BAR;
     ScrollArea::vertical().id_salt(("side", state.tab)).auto_shrink(false).show(ui, |ui| match state.tab {
         Tab::Picture => tone::tone(ui, state),

@@ -2,12 +2,13 @@
 
 use super::cross;
 use crate::comparison::Layout;
+use crate::engine::Phase;
 use crate::state::{State, Tool};
 use crate::{theme, words};
 use eframe::egui::accesskit::Live;
 use eframe::egui::{
-    Color32, CursorIcon, EventFilter, Id, Painter, PointerButton, Rect, Response, RichText, Role, Sense,
-    Stroke, StrokeKind, TextureHandle, Ui, Vec2, WidgetInfo, pos2, vec2,
+    Align2, Color32, CursorIcon, EventFilter, FontId, Id, Painter, PointerButton, Pos2, Rect, Response,
+    RichText, Role, Sense, Stroke, StrokeKind, TextureHandle, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
 /// How much a step of the wheel zooms.
@@ -46,6 +47,7 @@ pub fn picture(ui: &mut Ui, state: &mut State, textures: &Textures) {
             let size = vec2(size[0] as f32, size[1] as f32);
             let panes = Panes::of(area, state);
             interact(ui, state, &response, panes.render, size);
+            state.view.is_drawn(panes.render, size, ui.ctx().pixels_per_point());
             draw(ui, state, &panes, size, render, textures.other.as_ref());
         }
         None => {
@@ -162,6 +164,9 @@ fn draw(
         image(&clipped(clip), other, state.view.place(area, size));
         let x = clip.left();
         clipped(panes.render_clip.union(clip)).vline(x, clip.y_range(), Stroke::new(2.0, Color32::WHITE));
+        label(&clipped(panes.render_clip), panes.render_clip.left_top(), Align2::LEFT_TOP, words::THE_RENDER);
+        let name = state.comparison.name().unwrap_or_default();
+        label(&clipped(clip), clip.right_top(), Align2::RIGHT_TOP, &name);
     }
     let frame = |rect: Rect, stroke: Stroke| {
         clipped(panes.render).rect_stroke(rect, 0.0, stroke, StrokeKind::Outside);
@@ -176,21 +181,36 @@ fn draw(
     cross::draw(&clipped(panes.render), state, panes.render, size);
 }
 
+/// Says at a corner which of two pictures it is.
+fn label(painter: &Painter, corner: Pos2, align: Align2, text: &str) {
+    let inwards = if align == Align2::LEFT_TOP { vec2(12.0, 10.0) } else { vec2(-12.0, 10.0) };
+    let text = painter.layout_no_wrap(text.to_owned(), FontId::proportional(12.0), Color32::WHITE);
+    let place = align.anchor_size(corner + inwards, text.size());
+    painter.rect_filled(place.expand2(vec2(6.0, 3.0)), 4.0, Color32::from_black_alpha(160));
+    painter.galley(place.min, text, Color32::WHITE);
+}
+
 fn image(painter: &Painter, texture: &TextureHandle, place: Rect) {
     let all = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
     painter.image(texture.id(), place, all, Color32::WHITE);
 }
 
 fn welcome(ui: &Ui, area: Rect, state: &State) {
-    let text = words::in_empty_picture(&state.phase);
+    let text = match (&state.phase, &state.wanted) {
+        (Phase::Loading, Some(path)) => words::loading(path),
+        _ => words::in_empty_picture(&state.phase).to_owned(),
+    };
     let colour = if ui.visuals().dark_mode { Color32::from_gray(170) } else { Color32::from_gray(30) };
-    let font = eframe::egui::FontId::proportional(16.0);
-    ui.painter().text(area.center(), eframe::egui::Align2::CENTER_CENTER, text, font, colour);
+    let font = FontId::proportional(16.0);
+    ui.painter().text(area.center(), Align2::CENTER_CENTER, text, font, colour);
 }
 
 /// Has a screen reader say what is at the cross, whenever that is something else.
 fn announce(ui: &Ui, state: &State, area: Rect) {
     let (Some(at), Some(picture)) = (state.cross, &state.picture) else { return };
+    if is_outside(state, at) {
+        return;
+    }
     let index = at[1] as usize * picture.image.size[0] + at[0] as usize;
     let (Some(shown), Some(light)) = (picture.image.pixels.get(index), picture.light.pixels.get(index))
     else {
@@ -202,9 +222,15 @@ fn announce(ui: &Ui, state: &State, area: Rect) {
     ui.ctx().accesskit_node_builder(node.id, |node| node.set_live(Live::Polite));
 }
 
+/// Whether a pixel is outside the part that is rendered: what is known of it may be of the render before.
+fn is_outside(state: &State, at: [u32; 2]) -> bool {
+    let region = state.facts.as_ref().and_then(|facts| facts.region);
+    region.is_some_and(|[start, end]| (0..2).any(|axis| at[axis] < start[axis] || at[axis] >= end[axis]))
+}
+
 /// What is known of the pixel that is pointed at.
 fn inspector(ui: &mut Ui, state: &State) {
-    let zoom = state.picture.is_some().then(|| words::view(state.view.is_fitting()));
+    let zoom = state.picture.is_some().then(|| words::view(state.view.is_fitting(), state.view.shown()));
     ui.horizontal_centered(|ui| {
         let mut cell = |width: f32, text: String| {
             ui.allocate_ui(vec2(width, theme::LINE), |ui| {
@@ -219,8 +245,11 @@ fn inspector(ui: &mut Ui, state: &State) {
         };
         let index = at[1] as usize * picture.image.size[0] + at[0] as usize;
         cell(64.0, words::pixel(at));
+        if is_outside(state, at) {
+            return cell(400.0, words::OUTSIDE.to_owned());
+        }
         if let Some(shown) = picture.image.pixels.get(index) {
-            cell(100.0, words::code([shown.r(), shown.g(), shown.b()]));
+            cell(120.0, words::code([shown.r(), shown.g(), shown.b()]));
         }
         if let Some([x, y, z, _]) = picture.light.pixels.get(index) {
             cell(200.0, words::xyz([*x, *y, *z]));

@@ -1,6 +1,6 @@
 //! What the scene holds, and what it takes; or its elements.
 
-use super::tree::tree;
+use super::tree;
 use super::{fact, head};
 use crate::action::Action;
 use crate::state::State;
@@ -8,11 +8,9 @@ use crate::words;
 use eframe::egui::Ui;
 use indigo_front::messages::{clock, scaled};
 
-/// See the module.
-pub fn scene(ui: &mut Ui, state: &mut State) {
+/// What stays in sight, whatever is scrolled to.
+pub fn bar(ui: &mut Ui, state: &mut State) {
     if state.facts.is_none() {
-        ui.add_space(8.0);
-        ui.label(words::NOTHING_TO_RENDER);
         return;
     }
     ui.horizontal(|ui| {
@@ -23,7 +21,21 @@ pub fn scene(ui: &mut Ui, state: &mut State) {
         }
     });
     ui.add_space(4.0);
-    if state.shows_elements { tree(ui, state) } else { overview(ui, state) }
+    if state.shows_elements {
+        tree::bar(ui, state);
+    }
+}
+
+/// See the module.
+pub fn scene(ui: &mut Ui, state: &mut State) {
+    if state.facts.is_none() {
+        ui.add_space(8.0);
+        ui.label(words::NOTHING_TO_RENDER);
+    } else if state.shows_elements {
+        tree::tree(ui, state);
+    } else {
+        overview(ui, state);
+    }
 }
 
 fn overview(ui: &mut Ui, state: &State) {

@@ -3,7 +3,7 @@
 use crate::engine::Phase;
 use crate::state::State;
 use crate::words;
-use eframe::egui::{ProgressBar, Spinner, Ui, vec2};
+use eframe::egui::{Label, ProgressBar, Spinner, Ui, vec2};
 use indigo_front::messages::{clock, scaled};
 
 /// See the module. Each part has its place, so that nothing moves when numbers grow.
@@ -12,10 +12,10 @@ pub fn status(ui: &mut Ui, state: &State) {
         let cell = |ui: &mut Ui, width: f32, text: String| {
             ui.allocate_ui(vec2(width, ui.available_height()), |ui| {
                 ui.set_min_width(width);
-                ui.label(text);
+                ui.add(Label::new(text).truncate());
             });
         };
-        cell(ui, 150.0, words::phase(&state.phase));
+        cell(ui, 150.0, words::status(&state.phase, state.path.as_deref(), state.wanted.as_deref()));
         ui.allocate_ui(vec2(18.0, 18.0), |ui| {
             ui.set_min_width(18.0);
             if matches!(state.phase, Phase::Loading | Phase::Ending) {

@@ -77,7 +77,12 @@ fn mapping(ui: &mut Ui, state: &mut State, controls: &mut Controls) {
 
 /// A slider over powers of ten.
 fn scale(ui: &mut Ui, name: &str, value: &mut f64, range: std::ops::RangeInclusive<f64>) -> Response {
-    row(ui, name, |ui| ui.add(Slider::new(value, range).logarithmic(true).max_decimals(4)))
+    // A bound on the decimals would round the value itself, whenever it is shown.
+    let shown = |value: f64, _| {
+        let text = format!("{value:.4}");
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    };
+    row(ui, name, |ui| ui.add(Slider::new(value, range).logarithmic(true).custom_formatter(shown)))
 }
 
 fn response(ui: &mut Ui, state: &mut State, controls: &mut Controls) {
@@ -256,6 +261,20 @@ mod tests {
         harness.get_by_label(words::BLOOM).click();
         harness.run();
         assert!(harness.query_by_label(words::UNDO_RESET).is_none(), "what was moved since would be lost");
+    }
+
+    #[test]
+    fn a_control_that_is_shown_keeps_its_value() {
+        let mut harness = harness();
+        let controls = harness.state_mut().controls.as_mut().expect("a film");
+        (controls.mapper, controls.scale) = (Mapper::Linear, 0.3);
+        for _ in 0..2 {
+            harness.state_mut().brighten(0.5);
+            harness.run();
+        }
+        let scale = harness.state().controls.as_ref().map_or(0.0, |controls| controls.scale);
+        assert!((scale - 0.6).abs() < 1e-12, "{scale}");
+        assert!(harness.query_by_value("0.6").is_some());
     }
 
     #[test]

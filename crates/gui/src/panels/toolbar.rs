@@ -91,6 +91,8 @@ fn render(ui: &mut Ui, state: &mut State) {
             Phase::Rendering => words::PAUSE,
             Phase::Paused => words::RESUME,
             Phase::Halted(_) => words::GO_ON,
+            // A film was opened.
+            Phase::Ready if state.progress.is_some() => words::GO_ON,
             _ => words::START,
         };
         let button = ui.add_enabled_ui(is_possible, |ui| ui.add_sized(size, Button::new(text))).inner;
@@ -111,7 +113,11 @@ fn view(ui: &mut Ui, state: &mut State) {
     if ui.selectable_label(fits, words::FIT).on_hover_text(words::FIT_HINT).clicked() {
         state.view.fit();
     }
-    if ui.selectable_label(false, words::ONE_TO_ONE).on_hover_text(words::ONE_TO_ONE_HINT).clicked() {
+    if ui
+        .selectable_label(state.view.is_one_to_one(), words::ONE_TO_ONE)
+        .on_hover_text(words::ONE_TO_ONE_HINT)
+        .clicked()
+    {
         state.gesture(Gesture::OneToOne);
     }
 }

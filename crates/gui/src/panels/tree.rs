@@ -26,8 +26,8 @@ const LIST_WIDTH: f32 = 300.0;
 /// Children by which elements of one kind are told from each other, the best first.
 const NAMES: [&str; 5] = ["name", "mesh_name", "material_name", "pathname", "uid"];
 
-/// See the module.
-pub fn tree(ui: &mut Ui, state: &mut State) {
+/// What is done with all changes.
+pub fn bar(ui: &mut Ui, state: &mut State) {
     let Some(mut file) = state.file.take() else {
         if ui.button(words::READ_ELEMENTS).on_hover_text(words::READ_ELEMENTS_HINT).clicked() {
             state.act(Action::ReadElements);
@@ -49,6 +49,12 @@ pub fn tree(ui: &mut Ui, state: &mut State) {
         ui.weak(words::changes(n));
     });
     ui.add_space(4.0);
+    state.file = Some(file);
+}
+
+/// See the module.
+pub fn tree(ui: &mut Ui, state: &mut State) {
+    let Some(mut file) = state.file.take() else { return };
     ui.spacing_mut().indent = INDENT;
     let SceneFile { root, changes, .. } = &mut file;
     let mut tree = Tree { left: ui.cursor().left(), way: vec![], changes };

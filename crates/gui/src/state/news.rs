@@ -2,6 +2,7 @@
 
 use super::{Foot, State};
 use crate::action::Action;
+use crate::comparison::Comparison;
 use crate::controls::Controls;
 use crate::engine::{LoadedFacts, Phase, Update};
 use crate::log::Weight;
@@ -20,10 +21,14 @@ impl State {
                     self.foot = Foot::Findings;
                 }
                 (self.findings, self.sources, self.source_view) = (findings, sources, None);
+                self.findings_of.clone_from(&self.wanted);
                 self.reading = None;
             }
             Update::Film(settings, path) => {
                 self.set_file_aside();
+                if self.path.as_deref().is_some_and(|open| Path::new(open) != path) {
+                    self.comparison = Comparison::default();
+                }
                 self.facts = None;
                 self.path = Some(path.display().to_string());
                 self.wanted.clone_from(&self.path);
@@ -75,6 +80,7 @@ impl State {
             self.view.fit();
             self.picture = None;
             self.mode_is_chosen = false;
+            self.comparison = Comparison::default();
         }
         self.progress = None;
         // Another part of the picture is no reason to read the files anew.
@@ -149,6 +155,29 @@ mod tests {
         let action = state.actions.pop().expect("the next scene");
         assert!(matches!(action, Action::NextInQueue) && !action.leaves_scene());
         assert!(Action::RunQueue.leaves_scene(), "whoever presses the button can be asked");
+    }
+
+    #[test]
+    fn findings_are_those_of_the_scene_that_was_asked_for() {
+        let mut state = state();
+        (state.path, state.wanted) = (Some("a.igs".to_owned()), Some("b.igs".to_owned()));
+        state.take(Update::Findings(vec![], Arc::default()));
+        assert_eq!(state.findings_of.as_deref(), Some("b.igs"));
+    }
+
+    #[test]
+    fn a_comparison_is_with_the_film_that_is_open() {
+        let exposure = Exposure { aperture_area: 1.0, lens_sensor_dist: 1.0, duration: 1.0 };
+        let settings = || Box::new(PictureSettings::plain(ToneMapping::Linear { scale: 1.0 }, exposure));
+        let mut state = state();
+        state.take(Update::Film(settings(), "a.igi".into()));
+        let image = Arc::new(eframe::egui::ColorImage::example());
+        state.comparison.picture = Some(("other/shot.png".into(), image));
+        assert_eq!(state.comparison.name().as_deref(), Some("shot.png"));
+        for (film, stays) in [("a.igi", true), ("b.igi", false)] {
+            state.take(Update::Film(settings(), film.into()));
+            assert_eq!(state.comparison.picture.is_some(), stays, "{film}");
+        }
     }
 
     #[test]

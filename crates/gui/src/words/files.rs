@@ -26,9 +26,19 @@ pub fn lost_samples(samples_per_pixel: f64) -> String {
     )
 }
 
+/// Nothing was written, for a reason.
+pub fn nothing_saved(reason: &str) -> String {
+    format!("Nothing was saved: {reason}")
+}
+
+/// Whose findings are shown, where another scene is open or none.
+pub fn not_open(path: &str) -> String {
+    format!("In {path}, which is not open:")
+}
+
 /// A film will be gone on with.
 pub fn goes_on_with(path: &Path) -> String {
-    format!("{} is a film of this scene: press Start to continue it", path.display())
+    format!("{} is a film of this scene: press Continue to add samples", path.display())
 }
 
 /// A film of another scene.

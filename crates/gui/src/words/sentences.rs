@@ -82,8 +82,14 @@ pub fn mapper(mapper: Mapper) -> &'static str {
 
 /// A response by the name of its file.
 pub fn response(name: &str) -> String {
-    match Path::new(name).file_stem() {
-        Some(stem) => capital(&stem.to_string_lossy().replace('_', " ")),
+    match Path::new(name).file_stem().map(|stem| stem.to_string_lossy()) {
+        Some(stem) => match &*stem {
+            "dslr_s_curve" => "DSLR, S curve".to_owned(),
+            "gamma2.2" => "Gamma 2.2".to_owned(),
+            "rec709" => "Rec. 709".to_owned(),
+            "srgb" => "sRGB".to_owned(),
+            other => capital(&other.replace('_', " ")),
+        },
         None => "Display".to_owned(),
     }
 }
@@ -128,6 +134,21 @@ pub fn phase(phase: &Phase) -> String {
     }
 }
 
+/// What the engine is at, where something may be open that cannot be rendered, or is being loaded.
+pub fn status(phase: &Phase, open: Option<&str>, wanted: Option<&str>) -> String {
+    match (phase, open, wanted) {
+        (Phase::Empty, Some(_), _) => "A film alone".to_owned(),
+        (Phase::Loading, _, Some(path)) => loading(path),
+        _ => self::phase(phase),
+    }
+}
+
+/// A scene that is being loaded.
+pub fn loading(path: &str) -> String {
+    let name = Path::new(path).file_name().map_or_else(|| path.into(), |name| name.to_string_lossy());
+    format!("Loading {name}")
+}
+
 /// What is asked before a render is closed: its head, and the answer by which it stays open.
 pub fn closing(phase: &Phase) -> [&'static str; 2] {
     match phase {
@@ -153,9 +174,12 @@ pub fn picture_of(name: &str) -> String {
 }
 
 /// How large the picture is shown.
-pub fn view(is_fitting: bool) -> String {
-    if is_fitting { "Point at the picture to read its values" } else { "F shows the whole picture" }
-        .to_owned()
+pub fn view(is_fitting: bool, zoom: f32) -> String {
+    let percent = f64::from(zoom) * 100.0;
+    let percent = if percent < 10.0 { format!("{percent:.1}") } else { format!("{percent:.0}") };
+    let hint =
+        if is_fitting { "Point at the picture to read its values" } else { "F shows the whole picture" };
+    format!("{percent} %   {hint}")
 }
 
 /// Samples per pixel.

@@ -10,6 +10,7 @@ use eframe::egui::{
 };
 use indigo_decl::meaning::fault;
 use indigo_decl::{Field, Kind, Meaning, Value, value};
+use indigo_spectrum::illuminant::{ALL, find};
 
 /// The longest text that is edited here, in bytes.
 const LONGEST: usize = 400;
@@ -106,6 +107,12 @@ impl<'r> Row<'r> {
             (_, Some(Kind::Flag)) => ui.weak(words::FLAG),
             (Some(field), Some(Kind::Bool)) if fault(field, text).is_none() => switch(ui, field, text, old),
             (Some(field), Some(Kind::Choice(choices))) => choice(ui, field, choices, text, width),
+            (Some(field), Some(Kind::Text))
+                if field.name == "white_balance" && find(text.trim()).is_some() =>
+            {
+                let names: Vec<&str> = ALL.iter().map(|illuminant| illuminant.name).collect();
+                choice(ui, field, &names, text, width)
+            }
             (None, _) if matches!(self.meaning, Meaning::Block(..) | Meaning::OneOf(..)) => return,
             _ => self.line(ui, field, text, name, width),
         };

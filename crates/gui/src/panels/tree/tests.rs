@@ -14,7 +14,11 @@ fn harness(name: &str, text: &str) -> Harness<'static, State> {
     state.file = Some(SceneFile::read(path.to_str().unwrap()).unwrap());
     std::fs::remove_file(&path).unwrap();
     let builder = Harness::builder().with_size(vec2(theme::SIDE, 600.0)).with_context_setup(theme::set);
-    let mut harness = builder.build_ui_state(tree, state);
+    let panel = |ui: &mut Ui, state: &mut State| {
+        bar(ui, state);
+        tree(ui, state);
+    };
+    let mut harness = builder.build_ui_state(panel, state);
     harness.run();
     harness
 }
@@ -150,4 +154,16 @@ fn every_colour_has_a_picker_and_a_factor_beyond_what_a_screen_shows() {
     harness.run();
     let text = changes(&harness).texts.get(&vec![0, 0, 0, 0]).cloned().expect("it is changed");
     assert_eq!(text, "8 4 2");
+}
+
+#[test]
+fn a_white_is_chosen_among_those_that_are_known() {
+    let text = "<scene><camera><pos>0 0 0</pos><white_balance>D65</white_balance></camera></scene>";
+    let mut harness = harness("white", text);
+    open(&mut harness, &["camera"]);
+    harness.get_by_role_and_label(Role::ComboBox, "white_balance").click();
+    harness.run();
+    harness.get_by_label("D50").click();
+    harness.run();
+    assert_eq!(changes(&harness).texts.values().collect::<Vec<_>>(), ["D50"]);
 }

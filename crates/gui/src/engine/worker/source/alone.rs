@@ -19,6 +19,8 @@ pub struct Alone {
     saver: Saver,
     /// Rendering time of sessions before this one.
     before: Duration,
+    /// That of the film that is gone on with.
+    of_film: Duration,
     /// Holds the picture's name.
     prepared: Prepared,
 }
@@ -39,11 +41,19 @@ impl Alone {
             None => Session::start(Arc::clone(&prepared.scene), &options),
         };
         let session = session.map_err(|error| fail(&error, messages)).ok()?;
-        Some(Self { session, options, saver: Saver::new(job), before: Duration::ZERO, prepared })
+        let of_film = film.and_then(|film| film.record.as_ref()).map(|record| record.elapsed_s);
+        Some(Self {
+            session,
+            options,
+            saver: Saver::new(job),
+            before: Duration::ZERO,
+            of_film: of_film.and_then(|s| Duration::try_from_secs_f64(s).ok()).unwrap_or_default(),
+            prepared,
+        })
     }
 
     fn with_before(&self, progress: &Progress) -> Progress {
-        Progress { elapsed: progress.elapsed + self.before, ..*progress }
+        Progress { elapsed: progress.elapsed + self.before + self.of_film, ..*progress }
     }
 }
 
