@@ -134,7 +134,9 @@ impl Controls {
 
     /// What counts as white, in words.
     pub fn white_name(&self) -> String {
-        match indigo_spectrum::illuminant::ALL.iter().find(|i| i.white_xy == self.white) {
+        // Exporters and the sRGB standard round to four digits.
+        let is_near = |white: [f64; 2]| (0..2).all(|i| (white[i] - self.white[i]).abs() < 1e-4);
+        match indigo_spectrum::illuminant::ALL.iter().find(|i| is_near(i.white_xy)) {
             Some(illuminant) => illuminant.name.to_owned(),
             None => words::chromaticity(self.white),
         }
@@ -221,6 +223,7 @@ mod tests {
     #[test]
     fn a_grey_point_becomes_white() {
         let mut controls = Controls::of(&settings(ToneMapping::Linear { scale: 1.0 }));
+        assert_eq!(controls.white_name(), "D65", "by four digits");
         assert!(controls.take_grey([20.0, 20.0, 10.0]));
         assert_eq!(controls.white, [0.4, 0.4]);
         assert_eq!(controls.white_name(), "x 0.4000, y 0.4000");

@@ -34,7 +34,10 @@ pub fn status(ui: &mut Ui, state: &State) {
         }
         let Some(p) = progress else { return };
         cell(ui, 110.0, words::samples_per_pixel(p.samples_per_pixel));
-        cell(ui, 120.0, words::samples_per_second(&scaled(p.samples_per_second)));
+        // A film that was opened has no rate.
+        let rate =
+            (p.samples_per_second > 0.0).then(|| words::samples_per_second(&scaled(p.samples_per_second)));
+        cell(ui, 120.0, rate.unwrap_or_default());
         cell(ui, 110.0, words::elapsed(&clock(p.elapsed)));
         cell(ui, 100.0, state.time_left().map(|left| words::left(&clock(left))).unwrap_or_default());
         cell(ui, 110.0, p.relative_error.map(words::error).unwrap_or_default());
