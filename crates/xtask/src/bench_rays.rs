@@ -37,11 +37,14 @@ pub fn command() -> Result<Command, String> {
     Ok(command)
 }
 
+/// Speeds are compared with those of this version.
+const EMBREE: &str = "embreex==4.4.0.post1";
+
 fn install(environment: &Path) -> Result<(), String> {
     let python = if cfg!(windows) { "python" } else { "python3" };
     run_to_end(Command::new(python).args(["-m", "venv"]).arg(environment))?;
     let scripts = environment.join(if cfg!(windows) { "Scripts" } else { "bin" });
-    run_to_end(Command::new(scripts.join(python)).args(["-m", "pip", "install", "--quiet", "embreex"]))
+    run_to_end(Command::new(scripts.join(python)).args(["-m", "pip", "install", "--quiet", EMBREE]))
 }
 
 /// The folder inside the environment that holds Embree's shared library.

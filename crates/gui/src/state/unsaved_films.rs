@@ -45,6 +45,8 @@ impl State {
     /// Gives all of them up.
     pub fn discard_films(&mut self) {
         self.unsaved_films = 0;
+        // Once is enough to be asked.
+        self.give_up_samples();
         self.command(Command::DiscardUnsaved);
     }
 
