@@ -94,7 +94,7 @@ fn fact(ui: &mut Ui, name: &str, value: impl Into<String>) {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::action::Action;
     use crate::engine::{LoadedFacts, Phase, Update};
@@ -108,7 +108,7 @@ mod tests {
     use indigo_front::load::load_scene;
 
     /// A scene is open, and every panel has something to show.
-    pub(super) fn full() -> State {
+    pub fn full() -> State {
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../testscenes/cornell_box.igs");
         let arguments = Arguments::default();
         let (loaded, _) = load_scene(path, &arguments, None).expect("the scene is there");

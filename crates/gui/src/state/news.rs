@@ -82,7 +82,8 @@ impl State {
             self.mode_is_chosen = false;
             self.comparison = Comparison::default();
         }
-        self.progress = None;
+        // What is known of a film that goes with it follows.
+        (self.progress, self.kept_samples) = (None, 0);
         // Another part of the picture is no reason to read the files anew.
         if work.is_some() {
             self.set_file_aside();

@@ -137,6 +137,10 @@ mod tests {
         assert!(state.allowed(region()).is_none());
         state.give_up_samples();
         assert!(state.allowed(region()).is_some());
+        let facts = crate::panels::tests::full().facts.expect("a scene");
+        state.take(Update::Scene(Box::new(facts), None));
+        state.take(rendered(1000));
+        assert!(state.allowed(region()).is_none(), "it is another film");
     }
 
     #[test]

@@ -92,6 +92,9 @@ impl Worker {
         self.region = None;
         self.open = Some(Open { scene, read, request, region_of_files });
         self.outlet.send(Update::Scene(Box::new(facts), Some(work)));
+        if let Some(film) = &self.film {
+            self.tell_of_file(film);
+        }
         self.outlet.send(Update::Phase(Phase::Ready));
         if starts {
             self.start(&work);
@@ -124,11 +127,16 @@ impl Worker {
                 self.outlet.send(Update::Phase(Phase::Empty));
             }
         }
+        self.tell_of_file(&film);
+        self.film = Some(film);
+    }
+
+    /// Tells how far a film came that is in a file.
+    fn tell_of_file(&self, film: &SavedFilm) {
         if let Some(record) = &film.record {
             self.outlet.tell_progress(progress_of(record, film.film.size));
             self.outlet.send(Update::Kept(record.samples));
         }
-        self.film = Some(film);
     }
 }
 
