@@ -44,7 +44,7 @@ pub fn choose(wanted: &Wanted) -> Result<Option<PathBuf>, NoDialog> {
     } else {
         pollster::block_on(dialog.pick_file())
     };
-    Ok(file.map(|file| wanted.ask.completed(file.path().to_path_buf())))
+    Ok(file.map(|file| file.path().to_path_buf()))
 }
 
 /// Whether the desktop can ask: everywhere but under X11 and Wayland, where it does by a portal or the program `zenity`.

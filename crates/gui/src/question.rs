@@ -151,6 +151,8 @@ pub struct PathLine {
     pub is_new: bool,
     /// The number under which it is looked at, if it is.
     pub checked_as: Option<u64>,
+    /// Whether it comes from a dialog of the desktop.
+    pub is_of_dialog: bool,
     /// The file that may be written over: the one of which it was told that it is there.
     replaces: Option<PathBuf>,
 }
@@ -162,7 +164,28 @@ impl PathLine {
             folder.map(|folder| std::path::absolute(folder).unwrap_or_else(|_| folder.to_path_buf()));
         // With a slash at its end where no name follows.
         let text = folder.unwrap_or_default().join(name).display().to_string();
-        Self { ask, text, wrong: String::new(), is_new: true, checked_as: None, replaces: None }
+        Self {
+            ask,
+            text,
+            wrong: String::new(),
+            is_new: true,
+            checked_as: None,
+            is_of_dialog: false,
+            replaces: None,
+        }
+    }
+
+    /// A path that was chosen in a dialog of the desktop, with the ending of its kind.
+    ///
+    /// # Errors
+    /// A line to ask once more where another file has that name: the desktop has asked about the name without the ending.
+    pub fn of_dialog(ask: Ask, path: PathBuf) -> Result<PathBuf, Self> {
+        let completed = ask.completed(path.clone());
+        if completed == path || !completed.exists() {
+            return Ok(completed);
+        }
+        let line = Self::new(ask, completed.parent(), "");
+        Self { text: completed.display().to_string(), is_of_dialog: true, ..line }.accept()
     }
 
     /// The path, if it can be what was asked for. It may be on a disk that takes its time.
@@ -258,6 +281,12 @@ mod tests {
         assert_eq!(line.clone().accept().ok(), Some(folder.join("b.png")));
         let line = PathLine { text: folder.join("new").display().to_string(), ..line };
         assert_eq!(line.accept().ok(), Some(folder.join("new.png")));
+        // The desktop has asked about the name without the ending, if at all.
+        let save = Ask::Save(OneFile::Picture);
+        assert_eq!(PathLine::of_dialog(save, folder.join("a.png")).ok(), Some(folder.join("a.png")));
+        assert_eq!(PathLine::of_dialog(save, folder.join("c")).ok(), Some(folder.join("c.png")));
+        let line = PathLine::of_dialog(save, folder.join("a")).expect_err("it is there");
+        assert_eq!(line.accept().ok(), Some(folder.join("a.png")));
         // A key that others have is not written over, however often that is asked for.
         let key = PathLine::new(Ask::NewKey, Some(&folder), "a.png");
         let key = key.accept().expect_err("it is there");

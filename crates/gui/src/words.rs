@@ -255,6 +255,7 @@ texts! {
     UNSAVED_SAVE = "Save";
     UNSAVED_DISCARD = "Discard";
     NO_DIALOG = "This desktop offers no dialog for files. Path:";
+    PATH = "Path:";
     NO_PATH = "Type the path of a file";
     CHECKING = "Looking for it…";
     SCENES_AND_FILMS = "Scenes and films";

@@ -15,7 +15,7 @@ use std::sync::Arc;
 pub enum Answer {
     /// A path for what was asked.
     Path(Ask, PathBuf),
-    /// The desktop cannot ask for it.
+    /// The desktop cannot ask for it, or has not asked for all.
     NoDialog(PathLine),
     /// A path that was typed under a number: itself if it can be what was asked for, or else what is wrong.
     Checked(u64, Box<Result<(Ask, PathBuf), PathLine>>),

@@ -19,7 +19,10 @@ impl App {
         self.spawn("dialog", move || {
             wanted.folder.take_if(|folder| !folder.is_dir());
             let answered = match dialog::choose(&wanted) {
-                Ok(Some(path)) => Answer::Path(ask, path),
+                Ok(Some(path)) => match PathLine::of_dialog(ask, path) {
+                    Ok(path) => Answer::Path(ask, path),
+                    Err(line) => Answer::NoDialog(line),
+                },
                 Ok(None) => return,
                 Err(NoDialog) => Answer::NoDialog(PathLine::new(ask, wanted.folder.as_deref(), &wanted.name)),
             };

@@ -152,7 +152,7 @@ fn path_line(ui: &mut Ui, line: &mut PathLine) -> Option<bool> {
     ui.set_width(520.0);
     ui.heading(words::asked_for(line.ask));
     ui.add_space(6.0);
-    let name = ui.label(words::NO_DIALOG).id;
+    let name = ui.label(if line.is_of_dialog { words::PATH } else { words::NO_DIALOG }).id;
     ui.add_space(4.0);
     let is_checked = line.checked_as.is_some();
     let field = TextEdit::singleline(&mut line.text).desired_width(f32::INFINITY);
