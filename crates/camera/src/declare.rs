@@ -154,6 +154,7 @@ pub static CAMERA: Block = Block::new(
 .with_needs(&[Group::any(&["focus_distance", "autofocus"]), Group::any(&["pos", "keyframe"])])
 .with_later(&[
     Later::new("name", "3.0"),
+    Later::new("section_plane", "3.0"),
     Later::new("uid", "3.0"),
 ])
 .with_ignored(&["polarising_filter", "polarising_angle", "glare_weight", "glare_radius", "glare_num_blades"])

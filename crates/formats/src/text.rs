@@ -174,14 +174,28 @@ impl<'a> Text<'a> {
     }
 }
 
-/// A name from a file as a string; bytes that are not UTF-8 are replaced.
+/// A name from a file as scene files have it: in UTF-8 or else Latin-1, without blanks at its ends.
 pub(crate) fn name(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
+    let in_latin1 = || bytes.iter().map(|&byte| char::from(byte)).collect();
+    let name = std::str::from_utf8(bytes).map_or_else(|_| in_latin1(), str::to_owned);
+    name.trim().to_owned()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn names_are_read_as_scenes_are() {
+        for (bytes, read) in [
+            (&b"Metal "[..], "Metal"),
+            (" gr\u{fc}n".as_bytes(), "gr\u{fc}n"),
+            (b"gr\xfcn", "gr\u{fc}n"),
+            (b"a  b", "a  b"),
+        ] {
+            assert_eq!(name(bytes), read);
+        }
+    }
 
     fn position(text: &str, offset: usize) -> (usize, usize) {
         match Text::new(text.as_bytes(), 0).position(offset) {

@@ -19,7 +19,8 @@ pub(super) use self::choice::Choice;
 pub static BLOCK: Block = Block::new(
     "blend",
     "Two materials at once, weighted by a number or by an image map. Blends may be made of blends to any depth, \
-     but at most one material in the whole tree may be `specular` or `null_material`.",
+     but at most one material in the whole tree may be `specular` or `null_material`. Where the shares are numbers, what is in \
+     it emits its share.",
     &[
         Field::new(
             "blend_factor",
@@ -144,6 +145,15 @@ impl Facts {
         }
         Ok(facts)
     }
+}
+
+/// The share of material b, where it is the same everywhere.
+pub fn constant_share(node: &Node) -> Option<f64> {
+    if node.has("blend_map") {
+        return None;
+    }
+    let share = node.opt_real("blend_factor").map_or(0.0, |f| f.value);
+    Some(if node.bool("step_blend") { step(Real::from_f64(share)).to_f64() } else { share })
 }
 
 impl Blend {

@@ -47,6 +47,21 @@ impl<'a> Emission<'a> {
     }
 }
 
+impl Emission<'_> {
+    /// A part of it.
+    pub(super) fn dimmed(self, share: f64) -> Self {
+        Self { radiance: self.radiance.scaled(share), ..self }
+    }
+
+    /// Both together, if that is a spectrum of one layer, times a map at most.
+    pub(super) fn plus(self, other: Option<Self>) -> Option<Self> {
+        let Some(other) = other else { return Some(self) };
+        let is_simple = self.texture.is_none() && other.texture.is_none();
+        (is_simple && self.layer.group == other.layer.group)
+            .then(|| Self { radiance: self.radiance.plus(&other.radiance), ..self })
+    }
+}
+
 /// What `base_emission` and `emission` make together; `None` without both. Over an even base, which only says how much there is,
 /// `emission` is light as it is alone: white `rgb` is white under D65. A base with a spectrum of its own is tinted by it.
 pub(super) fn radiance(base: Option<&Node>, colour: Option<&Node>, sink: &mut Sink) -> Option<Spectrum> {
@@ -63,7 +78,7 @@ pub(super) fn radiance(base: Option<&Node>, colour: Option<&Node>, sink: &mut Si
 }
 
 /// Says that something of an emitting material gives no light.
-pub(super) fn warn_of_darkness(what: &str, span: Span, context: &mut Context) {
+pub(super) fn warn_of_darkness(what: &str, hint: &str, span: Span, context: &mut Context) {
     let since = EMISSION_PARAMETER.since;
     context.sink.push_or_count(
         Diagnostic::warning(
@@ -71,6 +86,6 @@ pub(super) fn warn_of_darkness(what: &str, span: Span, context: &mut Context) {
             span,
             format!("{what} of a material with <emission> (format version {since}) gives no light"),
         )
-        .hint("only a model shines by its materials: place a mesh instead"),
+        .hint(hint),
     );
 }

@@ -231,7 +231,8 @@ impl<'a> Geometry<'a> {
         let name = node.text("material_name");
         let material = materials.get(&name.value, name.span, UvSets::Natural, context);
         if materials.emission(&name.value, context.sink).is_some() {
-            warn_of_darkness(&format!("a {}", node.block.name), name.span, context);
+            let hint = "only a model shines by its materials: place a mesh instead";
+            warn_of_darkness(&format!("a {}", node.block.name), hint, name.span, context);
         }
         self.add(object, node.block.name, [material], None);
     }
@@ -276,7 +277,9 @@ impl<'a> Geometry<'a> {
     ) -> Option<(u32, u32)> {
         let placed = self.place(node, true, meshes, materials, context)?;
         if placed.materials.iter().any(|name| materials.emission(name, context.sink).is_some()) {
-            warn_of_darkness("a mesh light, which shines by its own spectrum, the mesh", node.span, context);
+            let hint = "place a model of that mesh instead";
+            let what = "a mesh light, which shines by its own spectrum, the mesh";
+            warn_of_darkness(what, hint, node.span, context);
         }
         let object = self.add(placed.object(placed.mesh), &placed.name, placed.slots, Some(light));
         Some((object, placed.mesh))

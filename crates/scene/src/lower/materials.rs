@@ -16,7 +16,7 @@ use crate::codes;
 use crate::settings::Settings;
 use indigo_decl::Node;
 use indigo_diag::{Diagnostic, Sink, Span, Spanned};
-use indigo_scatter::materials::coating;
+use indigo_scatter::materials::{blend, coating};
 use indigo_scatter::{Material, MaterialId, MaterialResources, Medium, MediumId};
 use indigo_texture::Texture;
 use resources::Resources;
@@ -167,18 +167,28 @@ impl<'a> MaterialTable<'a> {
         &self.layers
     }
 
-    /// What a material emits itself, or else the one that stands in for it or is below it.
     fn find_emission(&self, name: &str, sink: &mut Sink) -> Option<Emission<'a>> {
+        match self.shining(name, sink)? {
+            Shining::Alone(emission) => Some(emission),
+            Shining::Blend(blend) => self.blended_emission(blend, sink),
+        }
+    }
+
+    /// What a material emits itself, or else the one that stands in for it or is below it; or the blend that it is.
+    fn shining(&self, name: &str, sink: &mut Sink) -> Option<Shining<'a>> {
         let mut kind = self.names.get(name)?.alternative()?;
         let mut seen = HashSet::new();
         loop {
             let own = Emission::of(kind, &self.layers, sink);
             let part = shining_part(kind);
-            if own.is_some() {
+            if let Some(own) = own {
                 if let Some(below) = &part {
                     self.report_hidden_emission(below, sink);
                 }
-                return own;
+                return Some(Shining::Alone(own));
+            }
+            if kind.block.name == "blend" {
+                return Some(Shining::Blend(kind));
             }
             let part = part?;
             // Materials that lead back to themselves are reported elsewhere.
@@ -187,6 +197,33 @@ impl<'a> MaterialTable<'a> {
             }
             kind = self.names.get(&part.value)?.alternative()?;
         }
+    }
+
+    /// What a blend emits: of each material in it as much as its share. `None` where that is no spectrum, times a map at most:
+    /// where shares are of maps, where several maps or layers meet, and in trees of very many blends.
+    fn blended_emission(&self, blend: &Node, sink: &mut Sink) -> Option<Emission<'a>> {
+        let mut sum: Option<Emission> = None;
+        let mut blends = vec![(blend, 1.0)];
+        for _ in 0..MOST_BLENDS {
+            let Some((blend, weight)) = blends.pop() else { return sum };
+            let share = blend::constant_share(blend)?;
+            for (field, share) in [("a_name", 1.0 - share), ("b_name", share)] {
+                if share == 0.0 {
+                    continue;
+                }
+                match self.shining(&blend.opt_text(field)?.value, sink) {
+                    Some(Shining::Blend(inner)) => blends.push((inner, weight * share)),
+                    Some(Shining::Alone(part)) => sum = Some(part.dimmed(weight * share).plus(sum)?),
+                    None => {}
+                }
+            }
+        }
+        None
+    }
+
+    /// Whether a blend shines with the light of what is in it.
+    fn is_shining_blend(&self, kind: &Node) -> bool {
+        kind.block.name == "blend" && self.blended_emission(kind, &mut Sink::new()).is_some()
     }
 
     /// Tells of light from below something that shines by itself.
@@ -295,6 +332,17 @@ fn key(name: &str, uv: UvSets) -> Key {
     };
     (name.to_owned(), sets)
 }
+
+/// Whose light a material has.
+enum Shining<'a> {
+    /// That of one material.
+    Alone(Emission<'a>),
+    /// That of what is in a blend.
+    Blend(&'a Node),
+}
+
+/// The most blends of a tree whose light is added up.
+const MOST_BLENDS: usize = 256;
 
 /// The material whose emission is that of a kind which has none of its own.
 fn shining_part(kind: &Node) -> Option<Spanned<String>> {

@@ -94,13 +94,16 @@ impl Context<'_> {
         found.map_err(missing).ok()
     }
 
-    /// The same as [`read`](Self::read) for a file that decides only how the film is developed.
-    fn read_for_development(&mut self, path: &str, span: Span) -> Option<Resolved> {
-        if path.is_empty() {
-            return None;
-        }
+    /// The same for response curves, which decide only how the film is developed, and came with programs and not with
+    /// scenes: without theirs a scene opens all the same.
+    fn read_curve(&mut self, path: &str, span: Span) -> Option<Resolved> {
         self.asked.insert((path.to_owned(), span.source));
         let found = self.development.read(path, self.sources.name(span.source));
+        if let Err(error @ ResolveError::NotFound { .. }) = &found {
+            let message = format!("cannot read {path}: {error}; the response of a display stands in");
+            self.sink.push(Diagnostic::warning(codes::PLACEHOLDER, span, message));
+            return None;
+        }
         self.or_report(found, path, span)
     }
 

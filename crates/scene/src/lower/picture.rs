@@ -253,7 +253,7 @@ fn response(camera: &Node, context: &mut Context) -> Option<Response> {
     if path.value.is_empty() {
         return None;
     }
-    let found = context.read_for_development(&path.value, path.span)?;
+    let found = context.read_curve(&path.value, path.span)?;
     let curves = response::read(&found.bytes).map_err(|error| {
         let message = format!("{} is no file of camera response curves: {error}", found.path);
         context.sink.push(Diagnostic::error(codes::BAD_FILE, path.span, message));

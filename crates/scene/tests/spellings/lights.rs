@@ -296,8 +296,11 @@ fn what_cannot_shine_is_told() {
     );
     scene_with(
         &blended,
-        &["W0319 a blend of a material with <emission> (format version 1.1) gives no light"],
+        &["W0319 a sphere of a material with <emission> (format version 1.1) gives no light"],
     );
+    let map = "<blend_map><path>a.bmp</path><exponent>1</exponent></blend_map>";
+    let mapped = blended.replace("<blend_factor>0.5</blend_factor>", map);
+    scene_with(&mapped, &["W0319 a blend of a material with <emission> (format version 1.1) gives no light"]);
     let other = "<coating><absorption><constant><uniform><value>0</value></uniform></constant></absorption><substrate_material_name>m</substrate_material_name></coating>";
     let coated = |kind: &str| {
         format!(
@@ -340,4 +343,27 @@ fn what_cannot_shine_is_told() {
         ),
         &["W0320 <fast_sss>"],
     );
+}
+
+/// Each material of a blend emits as much as its share.
+#[test]
+fn a_blend_shines_by_what_is_in_it() {
+    let lit = |gain: &str| {
+        let body = BODY.replace("1e-3", gain);
+        GREY.replace("</diffuse>", &format!("<base_emission>{body}</base_emission></diffuse>"))
+    };
+    let blend = |share: &str, a: &str, b: &str| {
+        format!("<blend><blend_factor>{share}</blend_factor><a_name>{a}</a_name><b_name>{b}</b_name></blend>")
+    };
+    let lights = |of_m: &str| {
+        let parts = [("lit", lit("1e-3")), ("dark", GREY.to_owned()), ("deep", blend("0.5", "dark", "lit"))];
+        let parts: String = parts.iter().map(|(name, kind)| material(name, kind)).collect();
+        let scene = format!("{CAMERA}{SQUARE}{}{parts}<model>{PLACE}</model>", material("m", of_m));
+        format!("{:?}", scene_with(&scene, &[]).lights)
+    };
+    assert_eq!(lights(&blend("0.5", "lit", "dark")), lights(&lit("0.5e-3")));
+    assert_eq!(lights(&blend("0.5", "dark", "deep")), lights(&lit("0.25e-3")));
+    assert_ne!(lights(&blend("0.5", "dark", "deep")), lights(&lit("0.5e-3")));
+    let stepped = blend("0.5", "dark", "lit").replace("</blend>", "<step_blend>true</step_blend></blend>");
+    assert_eq!(lights(&stepped), lights(&lit("1e-3")));
 }

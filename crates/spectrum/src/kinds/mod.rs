@@ -200,6 +200,16 @@ impl Spectrum {
         }
     }
 
+    /// The sum of two spectra; where one of them varies and the other is not black it becomes a table at 1 nm.
+    #[must_use]
+    pub fn plus(&self, other: &Self) -> Self {
+        match (self, other) {
+            (Self::Uniform(a), Self::Uniform(b)) => Self::Uniform(a + b),
+            (Self::Uniform(0.0), spectrum) | (spectrum, Self::Uniform(0.0)) => spectrum.clone(),
+            _ => Self::Table(Table::on_grid(|lambda| self.at(lambda) + other.at(lambda))),
+        }
+    }
+
     /// The spectrum with its values limited to `[lo, hi]`: [0, 1] for an albedo, [-0.99, 0.99] for
     /// a mean cosine, from 0 up for a coefficient or emission. A table's knots are clamped; a
     /// smooth kind that goes beyond the limits becomes a table at 1 nm. A NaN becomes `lo`.

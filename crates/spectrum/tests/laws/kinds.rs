@@ -156,3 +156,16 @@ fn a_lamp_of_known_efficacy_has_its_luminance() {
     assert!(photometry::with_efficacy(&Spectrum::BLACK, 100.0, 17.5, 0.04).is_none());
     assert!(photometry::with_efficacy(&Spectrum::uniform(1.0), 100.0, 17.5, 0.0).is_none());
 }
+
+#[test]
+fn sums_have_the_light_of_both() {
+    let [even, body] = [Spectrum::Uniform(3.0), Spectrum::blackbody(3000.0, 1e-3)];
+    assert_eq!(even.plus(&Spectrum::Uniform(0.5)), Spectrum::Uniform(3.5));
+    assert_eq!(body.plus(&Spectrum::Uniform(0.0)), body);
+    let sum = body.plus(&even);
+    for lambda in [400.0, 555.0, 700.0] {
+        assert!((sum.at(lambda) / (body.at(lambda) + 3.0) - 1.0).abs() < 1e-12, "{lambda}");
+    }
+    let parts = body.luminance() + even.luminance();
+    assert!((sum.luminance() / parts - 1.0).abs() < 1e-6, "{} {parts}", sum.luminance());
+}

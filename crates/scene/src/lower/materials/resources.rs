@@ -65,9 +65,15 @@ impl MaterialResources for Resources<'_, '_, '_, '_, '_> {
 
     fn material(&mut self, node: &Node, field: &str) -> MaterialId {
         let name = node.text(field);
-        if self.table.emission(&name.value, self.context.sink).is_some() {
+        if self.table.emission(&name.value, self.context.sink).is_some() && !self.table.is_shining_blend(node)
+        {
             let what = if node.block.name == "blend" { "a blend" } else { "a sheet" };
-            emission::warn_of_darkness(what, name.span, self.context);
+            let hint = if node.block.declares("base_emission") {
+                "give it a <base_emission> of its own"
+            } else {
+                "it shines where the shares are numbers, and the light is of one layer and has at most one map"
+            };
+            emission::warn_of_darkness(what, hint, name.span, self.context);
         }
         self.substrate(node, field)
     }
