@@ -104,6 +104,9 @@ impl State {
         if self.unsaved_films > 0 {
             return Some(Question::UnsavedFilm(Action::TryToClose.into()));
         }
+        if self.would_lose_work() {
+            return Some(Question::LostSamples(Action::TryToClose.into()));
+        }
         self.has_growing_film().then_some(Question::Close)
     }
 
@@ -117,8 +120,9 @@ impl State {
             self.ask(Question::UnsavedFilm(Box::new(action)));
             return None;
         }
-        // A slip of the mouse may ask for this.
-        if matches!(action, Action::Command(Command::SetRegion(..))) && self.would_lose_samples() {
+        // A slip of the mouse may ask for another region.
+        let is_region = matches!(action, Action::Command(Command::SetRegion(..)));
+        if is_region && self.would_lose_samples() || action.leaves_film() && self.would_lose_work() {
             self.ask(Question::LostSamples(Box::new(action)));
             return None;
         }

@@ -115,6 +115,8 @@ pub struct State {
     pub set_aside: BTreeMap<String, SceneFile>,
     /// How many films are in memory alone, since they could not be saved.
     pub unsaved_films: usize,
+    /// What is done once the film is in a file that somebody is asked for.
+    pub after_film: Option<Box<Action>>,
     /// How many samples the film has that was saved last, opened, or given up.
     pub kept_samples: u64,
     /// What is done once they are saved.
@@ -203,6 +205,7 @@ impl State {
             sources: Arc::default(),
             file: None,
             unsaved_films: 0,
+            after_film: None,
             kept_samples: 0,
             after_saving: None,
             set_aside: BTreeMap::new(),

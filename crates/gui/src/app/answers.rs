@@ -15,6 +15,8 @@ use std::sync::Arc;
 pub enum Answer {
     /// A path for what was asked.
     Path(Ask, PathBuf),
+    /// None was given.
+    NoPath(Ask),
     /// The desktop cannot ask for it, or has not asked for all.
     NoDialog(PathLine),
     /// A path that was typed under a number: itself if it can be what was asked for, or else what is wrong.
@@ -38,6 +40,7 @@ impl App {
     pub(super) fn take(&mut self, answer: Answer, context: &Context) {
         match answer {
             Answer::Path(ask, path) => self.asked(ask, path, context),
+            Answer::NoPath(ask) => self.state.path_is_not_given(ask),
             Answer::NoDialog(line) => self.state.ask(Question::Path(line)),
             Answer::Checked(number, result) => self.state.path_is_checked(number, *result),
             Answer::NewKey(path, Ok(())) => {

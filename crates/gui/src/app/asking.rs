@@ -23,7 +23,7 @@ impl App {
                     Ok(path) => Answer::Path(ask, path),
                     Err(line) => Answer::NoDialog(line),
                 },
-                Ok(None) => return,
+                Ok(None) => Answer::NoPath(ask),
                 Err(NoDialog) => Answer::NoDialog(PathLine::new(ask, wanted.folder.as_deref(), &wanted.name)),
             };
             // The window may be closed by now.

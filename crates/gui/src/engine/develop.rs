@@ -45,6 +45,8 @@ struct Slot {
     settings: Option<PictureSettings>,
     /// How many pixels the sides of a texture may have.
     longest_side: Option<usize>,
+    /// Whether nothing is to be shown until there is another film.
+    is_cleared: bool,
     closed: bool,
 }
 
@@ -86,8 +88,17 @@ impl Desk {
 
     /// Shows another film from now on.
     pub fn set_film(&self, film: Arc<FilmState>) {
-        self.slot().film = Some(film);
+        let mut slot = self.slot();
+        (slot.film, slot.is_cleared) = (Some(film), false);
+        drop(slot);
         self.changed.notify_all();
+    }
+
+    /// Shows nothing from now on.
+    pub fn clear(&self) {
+        let mut slot = self.slot();
+        (slot.film, slot.is_cleared) = (None, true);
+        *self.shown.lock().unwrap_or_else(PoisonError::into_inner) = None;
     }
 
     /// Develops by other settings from now on.
@@ -135,6 +146,9 @@ impl Desk {
 
     fn develop(&self, kept: &mut Kept, (film, settings): News, wake: &dyn Fn()) {
         let start = Instant::now();
+        if self.slot().is_cleared {
+            (kept.film, kept.sensor) = (None, None);
+        }
         let is_new_film = film.is_some();
         kept.film = film.or(kept.film.take());
         kept.settings = settings.or(kept.settings.take());
@@ -197,7 +211,12 @@ impl Desk {
             lux_seconds_per_nit: settings.exposure.lux_seconds_per_nit(),
             time: start.elapsed(),
         };
+        let slot = self.slot();
+        if slot.is_cleared {
+            return;
+        }
         *self.shown.lock().unwrap_or_else(PoisonError::into_inner) = Some(shown);
+        drop(slot);
         wake();
     }
 }

@@ -150,6 +150,10 @@ pub enum Update {
     Unsaved(usize),
     /// A film of so many samples is in a file.
     Kept(u64),
+    /// The film that somebody wanted in a file of his choice could not be written.
+    NotKept,
+    /// There is no picture any more.
+    Cleared,
     /// Everything has ended: the window may close.
     Gone,
 }

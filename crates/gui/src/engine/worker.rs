@@ -193,6 +193,12 @@ impl Worker {
         self.outlet.line(weight, text);
     }
 
+    /// Nothing has been rendered of what is open now.
+    fn clear_picture(&self) {
+        self.desk.clear();
+        self.outlet.send(Update::Cleared);
+    }
+
     /// What the engine is at when nothing is rendered.
     fn at_rest(&self) -> Phase {
         if self.open.is_some() { Phase::Ready } else { Phase::Empty }

@@ -42,7 +42,7 @@ pub fn picture(ui: &mut Ui, state: &mut State, textures: &Textures) {
         let arrows = EventFilter { horizontal_arrows: true, vertical_arrows: true, ..EventFilter::default() };
         ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
     }
-    match &textures.render {
+    match textures.render.as_ref().filter(|_| state.picture.is_some()) {
         Some((render, size)) => {
             let size = vec2(size[0] as f32, size[1] as f32);
             let panes = Panes::of(area, state);
@@ -228,33 +228,49 @@ fn is_outside(state: &State, at: [u32; 2]) -> bool {
     region.is_some_and(|[start, end]| (0..2).any(|axis| at[axis] < start[axis] || at[axis] >= end[axis]))
 }
 
-/// What is known of the pixel that is pointed at.
+/// What is known of the pixel that is pointed at: in two lines, where there is no room for one.
 fn inspector(ui: &mut Ui, state: &State) {
-    let zoom = state.picture.is_some().then(|| words::view(state.view.is_fitting(), state.view.shown()));
-    ui.horizontal_centered(|ui| {
-        let mut cell = |width: f32, text: String| {
-            ui.allocate_ui(vec2(width, theme::LINE), |ui| {
-                ui.set_min_width(width);
-                ui.label(RichText::new(text).monospace().size(11.0));
+    const ONE_LINE: f32 = 700.0;
+    let Some(picture) = &state.picture else { return };
+    let zoom = words::zoom(state.view.shown());
+    let mut cells = vec![(56.0, zoom)];
+    match state.pointed() {
+        None => cells.push((400.0, words::view(state.view.is_fitting()).to_owned())),
+        Some(at) if is_outside(state, at) => {
+            cells.extend([(72.0, words::pixel(at)), (400.0, words::OUTSIDE.to_owned())]);
+        }
+        Some(at) => {
+            let index = at[1] as usize * picture.image.size[0] + at[0] as usize;
+            cells.push((72.0, words::pixel(at)));
+            let shown = picture.image.pixels.get(index);
+            cells.extend(shown.map(|shown| (116.0, words::code([shown.r(), shown.g(), shown.b()]))));
+            if let Some([x, y, z, _]) = picture.light.pixels.get(index) {
+                let exposure = f64::from(*y) * picture.lux_seconds_per_nit;
+                cells.extend([
+                    (200.0, words::xyz([*x, *y, *z])),
+                    (100.0, words::luminance(*y)),
+                    (110.0, words::exposure(exposure)),
+                ]);
+            }
+        }
+    }
+    let lines = if ui.available_width() < ONE_LINE { 3 } else { cells.len() };
+    let height = theme::LINE / if lines < cells.len() { 2.0 } else { 1.0 };
+    ui.spacing_mut().item_spacing.y = 0.0;
+    ui.vertical(|ui| {
+        for line in cells.chunks(lines) {
+            ui.horizontal(|ui| {
+                for (width, text) in line {
+                    ui.allocate_ui_with_layout(
+                        vec2(*width, height),
+                        eframe::egui::Layout::left_to_right(eframe::egui::Align::Center),
+                        |ui| {
+                            ui.set_min_width(*width);
+                            ui.label(RichText::new(text).monospace().size(11.0));
+                        },
+                    );
+                }
             });
-        };
-        let pixel = state.pointed().zip(state.picture.as_ref());
-        let Some((at, picture)) = pixel else {
-            cell(400.0, zoom.unwrap_or_default());
-            return;
-        };
-        let index = at[1] as usize * picture.image.size[0] + at[0] as usize;
-        cell(64.0, words::pixel(at));
-        if is_outside(state, at) {
-            return cell(400.0, words::OUTSIDE.to_owned());
-        }
-        if let Some(shown) = picture.image.pixels.get(index) {
-            cell(120.0, words::code([shown.r(), shown.g(), shown.b()]));
-        }
-        if let Some([x, y, z, _]) = picture.light.pixels.get(index) {
-            cell(200.0, words::xyz([*x, *y, *z]));
-            cell(100.0, words::luminance(*y));
-            cell(110.0, words::exposure(f64::from(*y) * picture.lux_seconds_per_nit));
         }
     });
 }

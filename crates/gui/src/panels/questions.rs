@@ -1,13 +1,12 @@
 //! What the user is asked before anything else goes on.
 
-use crate::action::{Action, Ask};
+use crate::action::Action;
 use crate::engine::Command;
 use crate::log::Weight;
 use crate::question::{PathLine, Question};
 use crate::state::State;
 use crate::{theme, words};
 use eframe::egui::{Button, Context, Id, Key, Modal, Response, TextEdit, Ui};
-use indigo_render::output::OneFile;
 
 /// Shows a question, if there is one, and does what is answered.
 pub fn questions(context: &Context, state: &mut State) {
@@ -72,8 +71,7 @@ fn unsaved_film(context: &Context, state: &mut State, action: Box<Action>, is_ne
     match choose(context, words::FILM_HEAD, &words::unsaved_films(state.unsaved_films), answers, is_new) {
         None => return Some(Question::UnsavedFilm(action)),
         Some(0) => state.save_films_before(action),
-        // What was wanted can be asked for again then: whoever is asked for a path may think otherwise.
-        Some(1) => state.act(Action::Ask(Ask::Save(OneFile::Film))),
+        Some(1) => state.save_film_before(action),
         Some(2) => {
             state.discard_films();
             state.act(*action);
@@ -83,7 +81,7 @@ fn unsaved_film(context: &Context, state: &mut State, action: Box<Action>, is_ne
     None
 }
 
-/// What becomes of samples that are in no file before another part of the picture is rendered.
+/// What becomes of samples that are in no file before something else takes their place.
 fn lost_samples(context: &Context, state: &mut State, action: Box<Action>, is_new: bool) -> Option<Question> {
     if !state.would_lose_samples() {
         state.act(*action);
@@ -93,7 +91,7 @@ fn lost_samples(context: &Context, state: &mut State, action: Box<Action>, is_ne
     let answers = [words::SAMPLES_SAVE, words::SAMPLES_DISCARD, words::CANCEL];
     match choose(context, words::SAMPLES_HEAD, &words::lost_samples(spp), answers, is_new) {
         None => return Some(Question::LostSamples(action)),
-        Some(0) => state.act(Action::Ask(Ask::Save(OneFile::Film))),
+        Some(0) => state.save_film_before(action),
         Some(1) => {
             state.give_up_samples();
             state.act(*action);
@@ -143,7 +141,10 @@ fn path(context: &Context, state: &mut State, mut line: PathLine) -> Option<Ques
             Some(Question::Path(line))
         }
         None if !is_left => Some(Question::Path(line)),
-        _ => None,
+        _ => {
+            state.path_is_not_given(line.ask);
+            None
+        }
     }
 }
 
@@ -184,6 +185,7 @@ fn path_line(ui: &mut Ui, line: &mut PathLine) -> Option<bool> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::action::Ask;
     use crate::engine::Phase;
     use crate::panels::keys;
     use crate::recent::Recent;

@@ -61,7 +61,7 @@ fn of_slave(ui: &mut Ui, slave: &SlaveStatus, goes_on: bool) -> bool {
     let texts = [
         &*slave.name,
         &slave.peer.to_string(),
-        slave.presence.word(),
+        if !goes_on && slave.presence.is_there() { words::HAS_ENDED } else { slave.presence.word() },
         &slave.threads.to_string(),
         &rate,
         &scaled(slave.samples as f64),

@@ -37,7 +37,9 @@ fn open(ui: &mut Ui, state: &mut State) {
             state.act(Action::Ask(Ask::Open));
             ui.close();
         }
-        if ui.add_enabled(state.wanted.is_some(), Button::new(words::RELOAD)).clicked() {
+        let name = state.wanted.as_deref().filter(|wanted| state.path.as_deref() != Some(wanted));
+        let reload = Button::new(name.map_or_else(|| words::RELOAD.to_owned(), words::reload));
+        if ui.add_enabled(state.wanted.is_some(), reload).clicked() {
             state.act(Action::Restart);
             ui.close();
         }

@@ -41,6 +41,7 @@ pub fn bar(ui: &mut Ui, state: &mut State) {
         if faults > 0 {
             save.on_disabled_hover_text(words::faulty(faults));
         } else if save.clicked() {
+            state.wanted.clone_from(&state.path);
             state.act(Action::SaveElements(Action::Restart.into()));
         }
         if ui.add_enabled(n > 0, Button::new(words::DISCARD)).clicked() {

@@ -1,7 +1,6 @@
 //! How the scene is rendered.
 
 use super::{head, named, row};
-use crate::action::Action;
 use crate::engine::Command;
 use crate::state::{State, Tool};
 use crate::work::{Mode, Sampling, Work};
@@ -39,7 +38,7 @@ pub fn work(ui: &mut Ui, state: &mut State) {
     row(ui, "", |ui| {
         let button = ui.add_enabled(is_other, Button::new(words::APPLY_MODE));
         if button.clicked() {
-            state.act(Action::Restart);
+            state.restart_open();
         }
         button.on_hover_text(words::APPLY_MODE_HINT)
     });

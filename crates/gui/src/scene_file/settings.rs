@@ -155,7 +155,8 @@ fn white(controls: &Controls) -> String {
     let [x, y] = controls.white;
     match illuminant::ALL.iter().find(|i| i.white_xy == controls.white) {
         Some(illuminant) => illuminant.name.to_owned(),
-        None => format!("{x} {y}"),
+        // Finer than any eye tells, and short enough to be read.
+        None => format!("{x:.6} {y:.6}"),
     }
 }
 

@@ -46,7 +46,9 @@ impl State {
             Update::Line(line) => self.tell(line.weight, line.text),
             Update::Done(how) => self.turn_has_ended(how),
             Update::Unsaved(n) => self.take_unsaved_films(n),
-            Update::Kept(samples) => self.kept_samples = samples,
+            Update::Kept(samples) => self.take_kept(samples),
+            Update::NotKept => self.after_film = None,
+            Update::Cleared => self.picture = None,
             Update::Gone => self.act(Action::Close),
         }
     }

@@ -1,7 +1,7 @@
 //! What is asked of the engine to have a scene loaded.
 
 use super::State;
-use crate::action::{PICTURES, has_ending};
+use crate::action::{Action, PICTURES, has_ending};
 use crate::engine::{Kept, Phase, Request};
 use crate::log::Weight;
 use crate::part::Part;
@@ -44,6 +44,12 @@ impl State {
             request.arguments.settings.extend(mode.overrides());
         }
         Some(request)
+    }
+
+    /// Loads the open scene anew, whatever was asked for since.
+    pub fn restart_open(&mut self) {
+        self.wanted.clone_from(&self.path);
+        self.act(Action::Restart);
     }
 
     /// The request for the next scene of the queue, if any waits that can be asked for.

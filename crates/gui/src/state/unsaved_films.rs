@@ -1,9 +1,14 @@
 //! Films that are in memory alone, since they could not be saved, and what waits for them.
 
 use super::State;
-use crate::action::Action;
+use crate::action::{Action, Ask};
 use crate::engine::{Command, Phase};
 use crate::question::Question;
+use indigo_render::output::OneFile;
+use std::time::Duration;
+
+/// What was rendered in less is soon rendered again.
+const A_MINUTE: Duration = Duration::from_mins(1);
 
 impl State {
     /// Whether there is a film to be saved now: one that grows, or one that could not be saved.
@@ -19,6 +24,33 @@ impl State {
         let writes_film = !is_named && self.facts.as_ref().is_some_and(|facts| facts.output.igi);
         let has_film = self.has_growing_film() || matches!(self.phase, Phase::Halted(_));
         has_film && !writes_film && self.samples() / 10 * 9 > self.kept_samples
+    }
+
+    /// Whether that would cost more than a minute of rendering.
+    pub fn would_lose_work(&self) -> bool {
+        let rendered = self.progress.map_or(Duration::ZERO, |progress| progress.elapsed);
+        self.would_lose_samples() && rendered >= A_MINUTE
+    }
+
+    /// Asks where the film is to be saved, and goes on with what is to be done once it is.
+    pub fn save_film_before(&mut self, action: Box<Action>) {
+        self.after_film = Some(action);
+        self.act(Action::Ask(Ask::Save(OneFile::Film)));
+    }
+
+    /// Nobody has said where: nothing waits for it any more.
+    pub fn path_is_not_given(&mut self, ask: Ask) {
+        if ask == Ask::Save(OneFile::Film) {
+            self.after_film = None;
+        }
+    }
+
+    /// A film of so many samples is in a file.
+    pub(super) fn take_kept(&mut self, samples: u64) {
+        self.kept_samples = samples;
+        if let Some(action) = self.after_film.take() {
+            self.act(*action);
+        }
     }
 
     /// Gives up what is in no file.
@@ -69,7 +101,6 @@ mod tests {
     use crate::work::Work;
     use indigo_front::flags::Arguments;
     use indigo_render::{HaltReason, Progress};
-    use std::time::Duration;
 
     fn state() -> State {
         State::new(Arguments::default(), Recent::default())
@@ -103,6 +134,42 @@ mod tests {
         for action in [Action::Open("picture.png".into()), Action::NextInQueue] {
             assert!(state.allowed(action).is_some(), "nothing is lost by that");
         }
+    }
+
+    #[test]
+    fn what_took_long_is_not_given_up_without_a_question() {
+        let leaving =
+            || [Action::Open("b.igs".into()), Action::Restart, Action::RunQueue, Action::TryToClose];
+        for (seconds, is_asked) in [(59, false), (61, true)] {
+            let mut state = state();
+            state.take(Update::Phase(Phase::Halted(HaltReason::Stopped)));
+            let Update::Progress(progress, _) = rendered(1000) else { panic!("it is that") };
+            let elapsed = Duration::from_secs(seconds);
+            state.take(Update::Progress(Progress { elapsed, ..progress }, None));
+            for action in leaving() {
+                assert_eq!(state.allowed(action).is_none(), is_asked);
+                assert_eq!(matches!(asked(&mut state), Some(Question::LostSamples(_))), is_asked);
+            }
+            assert_eq!(state.question_before_closing().is_some(), is_asked);
+        }
+    }
+
+    #[test]
+    fn what_waits_for_a_path_is_done_when_the_film_is_there_or_given_up() {
+        let mut state = state();
+        let save = |state: &mut State| {
+            state.save_film_before(Action::Restart.into());
+            assert!(matches!(state.actions.pop(), Some(Action::Ask(Ask::Save(OneFile::Film)))));
+        };
+        for (update, is_done) in [(Update::Kept(5), true), (Update::NotKept, false)] {
+            save(&mut state);
+            state.take(update);
+            assert_eq!(matches!(state.actions.pop(), Some(Action::Restart)), is_done);
+        }
+        save(&mut state);
+        state.path_is_not_given(Ask::Save(OneFile::Film));
+        state.take(Update::Kept(6));
+        assert!(state.actions.is_empty());
     }
 
     fn rendered(samples: u64) -> Update {

@@ -22,7 +22,7 @@ pub fn not_rendered(path: &str) -> String {
 /// What another part of the picture costs.
 pub fn lost_samples(samples_per_pixel: f64) -> String {
     format!(
-        "Another region begins a new film. The one so far, of {samples_per_pixel:.1} samples per pixel, is in no file: saved as IGI it can be continued later."
+        "The film, of {samples_per_pixel:.1} samples per pixel, is in no file and would be gone; a saved picture cannot be continued, nor developed otherwise. Saved as IGI it can."
     )
 }
 
@@ -159,7 +159,7 @@ pub fn changed_elsewhere(path: &str) -> String {
 
 /// A file that nobody is to write to.
 pub fn read_only(path: &str) -> String {
-    format!("{path} is read-only: nothing was saved")
+    format!("{path} is read-only")
 }
 
 /// A key was made.

@@ -145,8 +145,16 @@ pub fn status(phase: &Phase, open: Option<&str>, wanted: Option<&str>) -> String
 
 /// A scene that is being loaded.
 pub fn loading(path: &str) -> String {
-    let name = Path::new(path).file_name().map_or_else(|| path.into(), |name| name.to_string_lossy());
-    format!("Loading {name}")
+    format!("Loading {}", name(path))
+}
+
+/// Loads another scene than the open one once more.
+pub fn reload(path: &str) -> String {
+    format!("Try {} again", name(path))
+}
+
+fn name(path: &str) -> String {
+    Path::new(path).file_name().map_or_else(|| path.to_owned(), |name| name.to_string_lossy().into_owned())
 }
 
 /// What is asked before a render is closed: its head, and the answer by which it stays open.
@@ -174,12 +182,14 @@ pub fn picture_of(name: &str) -> String {
 }
 
 /// How large the picture is shown.
-pub fn view(is_fitting: bool, zoom: f32) -> String {
+pub fn zoom(zoom: f32) -> String {
     let percent = f64::from(zoom) * 100.0;
-    let percent = if percent < 10.0 { format!("{percent:.1}") } else { format!("{percent:.0}") };
-    let hint =
-        if is_fitting { "Point at the picture to read its values" } else { "F shows the whole picture" };
-    format!("{percent} %   {hint}")
+    if percent < 10.0 { format!("{percent:.1} %") } else { format!("{percent:.0} %") }
+}
+
+/// What stands below a picture where no pixel is pointed at.
+pub fn view(is_fitting: bool) -> &'static str {
+    if is_fitting { "Point at the picture to read its values" } else { "F shows the whole picture" }
 }
 
 /// Samples per pixel.

@@ -3,7 +3,7 @@
 use super::{MasterRender, PULSE, say_added};
 use crate::messages::{Messages, count, say_saved};
 use indigo_film::SavedFilm;
-use indigo_net::master::Unsent;
+use indigo_net::master::{Status, Unsent};
 use indigo_render::{HaltReason, Progress};
 use std::time::{Duration, Instant};
 
@@ -21,6 +21,13 @@ pub struct Gathered {
     pub progress: Progress,
     /// Whether fewer samples came than were asked for and told of: then the render may [go on](Gathered::go_on).
     pub lacks_samples: bool,
+}
+
+impl Gathered {
+    /// How things stand with slaves.
+    pub fn status(&self) -> Status {
+        self.render.status()
+    }
 }
 
 impl MasterRender {

@@ -112,6 +112,40 @@ fn a_scene_with_errors_has_had_its_turn() {
     assert!(lines.iter().any(|line| line.contains("scene.igs:1:")), "{lines:?}");
 }
 
+/// A slip of the mouse may drop something else on the window.
+#[test]
+fn what_cannot_be_opened_ends_no_render() {
+    let folder = Folder::new("slip");
+    let engine = rendering(&folder);
+    folder.write("broken.igs", "<scene><camera></scene>");
+    for (is_paused, expected) in [(false, Phase::Rendering), (true, Phase::Paused)] {
+        if is_paused {
+            engine.send(Command::Pause);
+        }
+        let path = folder.path("broken.igs");
+        engine.send(Command::Open(Box::new(Request { path, starts: true, ..folder.request() })));
+        wait_for(&engine, "loading", |update| matches!(update, Update::Phase(Phase::Loading)).then_some(()));
+        let phase = wait_for(&engine, "end of loading", |update| match update {
+            Update::Phase(phase) => Some(phase),
+            _ => None,
+        });
+        assert_eq!(phase, expected);
+    }
+    engine.send(Command::Resume);
+    let samples = |engine: &Engine| {
+        wait_for(engine, "progress", |update| match update {
+            Update::Progress(progress, _) => Some(progress.samples),
+            _ => None,
+        })
+    };
+    let before = samples(&engine);
+    assert!(samples(&engine) > before, "it goes on");
+    // A scene that can be rendered takes its place, and all files are there.
+    engine.send(Command::Open(Box::new(folder.request())));
+    wait_for(&engine, "next scene", |update| matches!(update, Update::Cleared).then_some(()));
+    assert!(Path::new(&folder.path("picture.igi")).exists());
+}
+
 /// An engine with a film that could not be saved: where its folder was there is a file.
 fn unsaved(folder: &Folder) -> Engine {
     let away = folder.0.join("away");

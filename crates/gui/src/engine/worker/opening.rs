@@ -1,5 +1,6 @@
 //! Opening scenes and films.
 
+use super::run::Run;
 use super::{Open, Worker};
 use crate::controls::PLAIN_REINHARD;
 use crate::engine::{LoadedFacts, Phase, Request, Update, load};
@@ -17,9 +18,15 @@ use std::sync::Arc;
 use std::time::Duration;
 
 impl Worker {
-    /// Loads a scene, after what is rendered has ended.
+    /// Loads a scene. What is rendered rests meanwhile, and ends only for a scene that can be rendered.
     pub(super) fn open(&mut self, request: Request) {
-        self.stop(true);
+        self.end_slave();
+        if let Some(wish) = &mut self.region {
+            wish.work = None;
+        }
+        if let Some(run) = &mut self.run {
+            run.hold();
+        }
         self.give_up_loading();
         self.outlet.send(Update::Phase(Phase::Loading));
         let stop = Stop::default();
@@ -33,8 +40,9 @@ impl Worker {
     }
 
     /// What was asked for is not rendered; why was told.
-    pub(super) fn fail_to_begin(&self) {
-        self.outlet.send(Update::Phase(self.at_rest()));
+    pub(super) fn fail_to_begin(&mut self) {
+        let phase = self.run.as_mut().map(Run::release);
+        self.outlet.send(Update::Phase(phase.unwrap_or_else(|| self.at_rest())));
         self.outlet.send(Update::Done(Turn::Failed));
     }
 
@@ -75,6 +83,11 @@ impl Worker {
         let Some(scene) = outcome.scene else {
             return self.fail_to_begin();
         };
+        self.stop(true);
+        if self.run.is_some() {
+            // Slaves have still to send what they had told of.
+            return self.fail_to_begin();
+        }
         let facts = LoadedFacts::of(&scene);
         let of_files = Work::of(&facts.output, outcome.request.arguments.halt_error);
         let kept = outcome.request.kept.filter(|kept| kept.of_files == of_files);
@@ -95,10 +108,15 @@ impl Worker {
         if let Some(film) = &self.film {
             self.tell_of_file(film);
         }
-        self.outlet.send(Update::Phase(Phase::Ready));
         if starts {
-            self.start(&work);
+            // The picture before it is looked at until there is another.
+            return self.start(&work);
         }
+        match &self.film {
+            Some(film) => self.desk.set_film(Arc::new(film.film.clone())),
+            None => self.clear_picture(),
+        }
+        self.outlet.send(Update::Phase(Phase::Ready));
     }
 
     /// A film of the scene that is open is gone on with at the next start; any other is only looked at.

@@ -55,9 +55,12 @@ impl Worker {
             picture.region = facts.picture.region;
         }
         self.outlet.send(Update::Scene(Box::new(facts), None));
-        self.outlet.send(Update::Phase(Phase::Ready));
-        if let Some(work) = work {
-            self.start(&work);
+        match work {
+            Some(work) => self.start(&work),
+            None => {
+                self.clear_picture();
+                self.outlet.send(Update::Phase(Phase::Ready));
+            }
         }
     }
 }

@@ -38,6 +38,8 @@ pub struct Run {
     rests: bool,
     /// Whether the film was shown since all threads rest.
     rest_shown: bool,
+    /// Whether it rests for something that is loaded.
+    is_held: bool,
     news: Instant,
     shown: Instant,
     pictures: u32,
@@ -108,6 +110,7 @@ impl Run {
             display_period: display_period.unwrap_or(Duration::MAX),
             rests: false,
             rest_shown: false,
+            is_held: false,
             news: now,
             shown: now,
             pictures: 0,
@@ -139,6 +142,23 @@ impl Run {
         self.source.set_rest(true);
         (self.rests, self.rest_shown) = (true, false);
         outlet.send(Update::Phase(Phase::Paused));
+    }
+
+    /// Lets the threads rest without a word while something else is loaded, where they can and do not rest already.
+    pub fn hold(&mut self) {
+        if !self.rests && !self.has_slaves() {
+            self.source.set_rest(true);
+            (self.rests, self.rest_shown, self.is_held) = (true, false, true);
+        }
+    }
+
+    /// Nothing is loaded any more: goes on if it was held. What it is at then.
+    pub fn release(&mut self) -> Phase {
+        if std::mem::take(&mut self.is_held) {
+            self.source.set_rest(false);
+            self.rests = false;
+        }
+        if self.rests { Phase::Paused } else { Phase::Rendering }
     }
 
     /// Goes on.
@@ -203,7 +223,11 @@ impl Run {
 
     fn show(&mut self, desk: &Desk, messages: &mut dyn Messages) {
         let start = Instant::now();
-        desk.set_film(Arc::new(self.source.sums(messages)));
+        let sums = self.source.sums(messages);
+        // A black picture would be taken for what is rendered.
+        if sums.layers.iter().any(|layer| layer.totals.n_samples > 0.0) {
+            desk.set_film(Arc::new(sums));
+        }
         self.cost = start.elapsed().max(desk.last_cost());
         self.shown = Instant::now();
         self.pictures += 1;
@@ -246,11 +270,11 @@ impl Run {
         saves: bool,
         outlet: &mut Outlet,
     ) -> Result<(SavedFilm, bool), Self> {
-        if let Some(status) = self.source.slaves() {
-            outlet.send(Update::Slaves(Box::new(status)));
-        }
         match self.source.end(reason, saves, outlet) {
-            Ended::Film { progress, film, is_saved } => {
+            Ended::Film { progress, film, is_saved, slaves } => {
+                if let Some(status) = slaves {
+                    outlet.send(Update::Slaves(status));
+                }
                 outlet.tell_progress(progress);
                 Ok((*film, is_saved))
             }

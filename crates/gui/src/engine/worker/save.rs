@@ -49,7 +49,12 @@ impl Worker {
                         drop(to_self.send(Command::FilmIsSaved(film)));
                     }
                 }
-                Err(error) => messages.error(&error.to_string()),
+                Err(error) => {
+                    messages.error(&error.to_string());
+                    if what == OneFile::Film {
+                        messages.send(Update::NotKept);
+                    }
+                }
             }
         });
     }

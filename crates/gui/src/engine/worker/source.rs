@@ -57,6 +57,8 @@ pub enum Ended {
         film: Box<SavedFilm>,
         /// Whether all files that are wanted were written.
         is_saved: bool,
+        /// How things stand with slaves now.
+        slaves: Option<Box<Status>>,
     },
     /// It has not what was asked for after all, and goes on.
     GoesOn(Box<dyn Source>),

@@ -150,7 +150,7 @@ impl Source for Alone {
             self.saver.keep_word(|| film.clone(), messages);
             true
         };
-        Ended::Film { progress: self.with_before(&progress), film: film.into(), is_saved }
+        Ended::Film { progress: self.with_before(&progress), film: film.into(), is_saved, slaves: None }
     }
 
     fn slaves(&self) -> Option<Status> {

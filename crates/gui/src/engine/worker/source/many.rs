@@ -98,7 +98,12 @@ impl Source for Many {
         let mut render = self.0;
         if !saves {
             let progress = render.progress();
-            return Ended::Film { progress, film: render.discard(messages).into(), is_saved: true };
+            return Ended::Film {
+                progress,
+                film: render.discard(messages).into(),
+                is_saved: true,
+                slaves: None,
+            };
         }
         if let HaltReason::Failed(message) = reason {
             messages.error(message);
@@ -113,9 +118,9 @@ impl Source for Many {
                 Err(back) => gathered = *back,
             }
         }
-        let progress = gathered.progress;
+        let (progress, slaves) = (gathered.progress, Some(gathered.status().into()));
         let (film, is_saved) = gathered.save(messages);
-        Ended::Film { progress, film: film.into(), is_saved }
+        Ended::Film { progress, film: film.into(), is_saved, slaves }
     }
 
     fn slaves(&self) -> Option<Status> {
