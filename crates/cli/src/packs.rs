@@ -59,7 +59,7 @@ pub fn pack(arguments: &Arguments, console: &mut Console) -> u8 {
     }
 }
 
-/// Unpacks a packed scene into a folder that is not there yet, or empty; the exit status.
+/// Unpacks a packed scene or material into a folder that is not there yet, or empty; the exit status.
 pub fn unpack(arguments: &Arguments, console: &mut Console) -> u8 {
     let [path, folder] = &arguments.files[..] else { return refuse("two names are expected", console) };
     if folder.is_empty() {
@@ -72,7 +72,8 @@ pub fn unpack(arguments: &Arguments, console: &mut Console) -> u8 {
         Ok(pack) => pack,
         Err(error) => return refuse(&format!("{path}: {error}"), console),
     };
-    let main = match pack.main() {
+    let is_material = Path::new(path).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("pigm"));
+    let main = match if is_material { pack.material() } else { pack.main() } {
         Ok(main) => main,
         Err(error) => return refuse(&format!("{path}: {error}"), console),
     };

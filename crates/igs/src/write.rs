@@ -90,9 +90,14 @@ impl Declared {
 }
 
 /// The first sentence of a documentation, without its marks. A point before a small letter or a digit is that of an
-/// abbreviation.
+/// abbreviation, and one behind a single letter that of a first name.
 fn first_sentence(doc: &str) -> String {
-    let goes_on = |at: usize| doc[at + 2..].starts_with(|c: char| c.is_lowercase() || c.is_ascii_digit());
+    let is_initial = |at: usize| {
+        let mut before = doc[..at].chars().rev();
+        before.next().is_some_and(char::is_uppercase) && before.next().is_none_or(|c| !c.is_alphanumeric())
+    };
+    let is_small = |at: usize| doc[at + 2..].starts_with(|c: char| c.is_lowercase() || c.is_ascii_digit());
+    let goes_on = |at: usize| is_small(at) || is_initial(at);
     let end = doc.match_indices(". ").map(|(at, _)| at).find(|at| !goes_on(*at)).unwrap_or(doc.len());
     let sentence = doc[..end].trim_end_matches('.');
     sentence.split_whitespace().collect::<Vec<_>>().join(" ").replace('`', "")
@@ -266,5 +271,6 @@ mod tests {
         let doc = "The `pos` of a lamp, e.g. one of a room (fig. 3). It is in metres.";
         assert_eq!(first_sentence(doc), "The pos of a lamp, e.g. one of a room (fig. 3)");
         assert_eq!(first_sentence("A sphere."), "A sphere");
+        assert_eq!(first_sentence("Burns: E. Reinhard, 2002. More."), "Burns: E. Reinhard, 2002");
     }
 }

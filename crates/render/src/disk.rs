@@ -9,8 +9,8 @@ use std::io::{Read, Write as _};
 use std::path::{Component, Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Finds files beside the scene, then beside the file that names them (which the scene may include), then in resource
-/// directories.
+/// Finds files beside the scene, then beside the file that names them (which the scene may include; of an `.igm` the other way
+/// round), then in resource directories.
 ///
 /// `\` and `/` are alike. An absolute path that does not exist (scenes travel between machines) is
 /// looked for by its last part beside the scene. Where no file has exactly the name, one that differs
@@ -69,6 +69,10 @@ impl DiskResolver {
         let directory = |file: &Path| file.parent().unwrap_or(Path::new("")).to_path_buf();
         let mut beside: Vec<PathBuf> =
             self.scene.as_deref().into_iter().chain([Path::new(from)]).map(directory).collect();
+        // A library of materials knows the files beside itself, and nothing of the scene.
+        if Path::new(from).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("igm")) {
+            beside.reverse();
+        }
         beside.dedup();
         let has_drive = path.as_bytes().get(1) == Some(&b':');
         if has_drive || path.starts_with('/') {
@@ -261,6 +265,8 @@ mod tests {
         let from = root.join("parts/included.igs").display().to_string();
         let found =
             |path: &str| String::from_utf8(resolver.read(path, &from).unwrap().bytes.to_vec()).unwrap();
+        let of_library = resolver.read("wood.png", &root.join("parts/library.igm").display().to_string());
+        assert_eq!(&*of_library.unwrap().bytes, b"parts");
         assert_eq!(
             ["wood.png", "cloth.png", "au.nk", "C:\\old\\cloth.png"].map(found),
             ["scene", "parts", "resources", "parts"]

@@ -256,7 +256,8 @@ fn inspector(ui: &mut Ui, state: &State) {
     }
     let lines = if ui.available_width() < ONE_LINE { 3 } else { cells.len() };
     let height = theme::LINE / if lines < cells.len() { 2.0 } else { 1.0 };
-    ui.spacing_mut().item_spacing.y = 0.0;
+    // Lines are no higher than that.
+    (ui.spacing_mut().item_spacing.y, ui.spacing_mut().interact_size.y) = (0.0, height);
     ui.vertical(|ui| {
         for line in cells.chunks(lines) {
             ui.horizontal(|ui| {

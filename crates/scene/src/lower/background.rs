@@ -133,10 +133,8 @@ fn picture(texture: &Node, gain: f64, context: &mut Context) -> Option<DistantLi
     let path = texture.text("path");
     let [exponent, a, b, c] = ["exponent", "a", "b", "c"].map(|field| texture.real(field));
     let turn = turn_of(texture, context);
-    let stand_in = "an even magenta light";
-    let Some(file) = context.read_or_stand_in(&path.value, path.span, stand_in) else {
-        let magenta = Spectrum::rgb_reflectance([0.8, 0.0, 0.8]);
-        return context.placeholders.then(|| Background(magenta.scaled(gain)).into());
+    let Some(file) = context.read_or_stand_in(&path.value, path.span, environment::MAGENTA_LIGHT) else {
+        return environment::magenta_light(gain, context);
     };
     let image = context.picture(&file.path, &file.bytes, path.span);
     let surroundings = Surroundings {

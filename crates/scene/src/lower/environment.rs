@@ -39,7 +39,7 @@ pub(super) fn distant_lights(
     }
     if let Some(map) = root.node("env_map").and_then(Node::alternative) {
         layer.keep_colour_out_of(map, context.sink);
-        lights.extend(env_map(map, context).map(|map| (DistantLight::from(map), layer.group)));
+        lights.extend(env_map(map, context).map(|light| (light, layer.group)));
     }
     if let Some(settings) = root.node("background_settings") {
         lights.extend(background::lights(settings, materials, context));
@@ -105,7 +105,16 @@ pub(super) fn skylight(
     vec![(sky.into(), sky_layer.group), (sun.into(), sun_layer.group)]
 }
 
-fn env_map(node: &Node, context: &mut Context) -> Option<EnvMap> {
+/// What a picture of the surroundings is stood in for by.
+pub(super) const MAGENTA_LIGHT: &str = "an even magenta light";
+
+/// The same as light of some radiance, where that is asked for.
+pub(super) fn magenta_light(gain: f64, context: &Context) -> Option<DistantLight> {
+    let magenta = Spectrum::rgb_reflectance([0.8, 0.0, 0.8]);
+    context.placeholders.then(|| Background(magenta.scaled(gain)).into())
+}
+
+fn env_map(node: &Node, context: &mut Context) -> Option<DistantLight> {
     let path = node.text("path");
     let gain = node.real("gain");
     let width = (node.block.name == "spherical").then(|| node.int("width"));
@@ -114,14 +123,18 @@ fn env_map(node: &Node, context: &mut Context) -> Option<EnvMap> {
         node.disregard();
         return None;
     }
-    let file = context.read(&path.value, path.span)?;
+    let Some(file) = context.read_or_stand_in(&path.value, path.span, MAGENTA_LIGHT) else {
+        return magenta_light(gain, context);
+    };
     let (layout, image) = match width {
         Some(width) => {
             (Layout::Angular, float_map::decode(&file.bytes, u32::try_from(width).unwrap_or(u32::MAX)))
         }
         None => (Layout::LatLong, context.picture(&file.path, &file.bytes, path.span)),
     };
-    Surroundings { layout, curve: None, gain }.env_map(image, &file.path, path.span, context)
+    Surroundings { layout, curve: None, gain }
+        .env_map(image, &file.path, path.span, context)
+        .map(DistantLight::from)
 }
 
 /// How a picture is one of the surroundings.

@@ -108,6 +108,9 @@ fn a_picture_of_the_surroundings_has_a_stand_in() {
     let missing = "W0326 cannot read none.hdr";
     let scene = scene_with(&(background("none.hdr") + settings), &[double, missing]);
     assert!(surroundings(&scene) > 0.0);
+    let map = "<env_map><latlong><path>none.hdr</path><gain>1</gain></latlong></env_map>";
+    let scene = scene_with(&format!("{CAMERA}{map}{settings}"), &[double, missing]);
+    assert!(surroundings(&scene) > 0.0);
     let found = findings(&loaded(&background("none.hdr")));
     assert!(found[0].1.starts_with("E0302"), "{found:?}");
 }
