@@ -183,8 +183,8 @@ impl PathLine {
     ///
     /// # Errors
     /// A line to ask once more where another file has that name: the desktop has asked about the name without the ending.
-    pub fn of_dialog(ask: Ask, path: PathBuf) -> Result<PathBuf, Self> {
-        let completed = ask.completed(path.clone());
+    pub fn of_dialog(ask: Ask, path: &Path) -> Result<PathBuf, Self> {
+        let completed = ask.completed(path.to_path_buf());
         if completed == path || !completed.exists() {
             return Ok(completed);
         }
@@ -287,9 +287,9 @@ mod tests {
         assert_eq!(line.accept().ok(), Some(folder.join("new.png")));
         // The desktop has asked about the name without the ending, if at all.
         let save = Ask::Save(OneFile::Picture);
-        assert_eq!(PathLine::of_dialog(save, folder.join("a.png")).ok(), Some(folder.join("a.png")));
-        assert_eq!(PathLine::of_dialog(save, folder.join("c")).ok(), Some(folder.join("c.png")));
-        let line = PathLine::of_dialog(save, folder.join("a")).expect_err("it is there");
+        assert_eq!(PathLine::of_dialog(save, &folder.join("a.png")).ok(), Some(folder.join("a.png")));
+        assert_eq!(PathLine::of_dialog(save, &folder.join("c")).ok(), Some(folder.join("c.png")));
+        let line = PathLine::of_dialog(save, &folder.join("a")).expect_err("it is there");
         assert_eq!(line.accept().ok(), Some(folder.join("a.png")));
         // A key that others have is not written over, however often that is asked for.
         let key = PathLine::new(Ask::NewKey, Some(&folder), "a.png");

@@ -19,7 +19,7 @@ impl App {
         self.spawn("dialog", move || {
             wanted.folder.take_if(|folder| !folder.is_dir());
             let answered = match dialog::choose(&wanted) {
-                Ok(Some(path)) => match PathLine::of_dialog(ask, path) {
+                Ok(Some(path)) => match PathLine::of_dialog(ask, &path) {
                     Ok(path) => Answer::Path(ask, path),
                     Err(line) => Answer::NoDialog(line),
                 },

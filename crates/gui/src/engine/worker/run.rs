@@ -22,7 +22,7 @@ use std::time::{Duration, Instant};
 /// How often the window is told how far it is. Each time it is drawn anew, which costs a machine without a graphics card
 /// a tenth of a second of one core.
 pub const BETWEEN_NEWS: Duration = Duration::from_secs(1);
-/// How often the picture is renewed in the first moments; the time between two doubles up to the setting `display_period`.
+/// When the first picture comes; the time between two grows fourfold up to the setting `display_period`.
 const FIRST_PICTURE: Duration = Duration::from_millis(250);
 /// The same as long as there are pixels without a sample, at most.
 const WHILE_IN_PARTS: Duration = Duration::from_secs(1);
@@ -43,8 +43,8 @@ pub struct Run {
     news: Instant,
     shown: Instant,
     pictures: u32,
-    /// Whether every pixel has a sample, as far as is known.
-    is_whole: bool,
+    /// As was told last.
+    samples_per_pixel: f64,
     /// What copying a film took.
     cost: Duration,
 }
@@ -114,7 +114,7 @@ impl Run {
             news: now,
             shown: now,
             pictures: 0,
-            is_whole: false,
+            samples_per_pixel: 0.0,
             cost: Duration::ZERO,
         })
     }
@@ -196,7 +196,7 @@ impl Run {
             self.tell(progress, outlet);
             return reason;
         }
-        self.is_whole = progress.samples_per_pixel >= 1.0;
+        self.samples_per_pixel = progress.samples_per_pixel;
         let is_first_rest = self.rests && !self.rest_shown && self.source.is_resting();
         if is_first_rest || self.news.elapsed() >= BETWEEN_NEWS {
             self.tell(progress, outlet);
@@ -213,8 +213,8 @@ impl Run {
     }
 
     fn between_pictures(&self) -> Duration {
-        let growing = FIRST_PICTURE.saturating_mul(1 << self.pictures.min(16));
-        let growing = if self.is_whole { growing } else { growing.min(WHILE_IN_PARTS) };
+        let growing = FIRST_PICTURE.saturating_mul(1 << (2 * self.pictures).min(16));
+        let growing = if self.samples_per_pixel < 1.0 { growing.min(WHILE_IN_PARTS) } else { growing };
         // Developing takes long on a machine that is busy with other things, too: pictures come all the same.
         let longest = self.display_period.saturating_mul(LONGEST_WAIT);
         let sparing = self.cost.saturating_mul(PART_FOR_PICTURES).min(longest);
