@@ -166,8 +166,7 @@ impl Blend {
             let map = if is_stepped { resources.texture(map) } else { resources.shares(map) };
             if is_stepped { Share::Steps(map) } else { Share::Map(map) }
         } else {
-            let share = node.opt_real("blend_factor").map_or(0.0, |f| f.value);
-            Share::Constant(if is_stepped { step(Real::from_f64(share)) } else { Real::from_f64(share) })
+            Share::Constant(Real::from_f64(constant_share(node).unwrap_or(0.0)))
         };
         let [a, b] = ["a_name", "b_name"].map(|field| resources.material(node, field));
         let [of_a, of_b] = [a, b].map(|id| Facts::of(resources.built(id)));

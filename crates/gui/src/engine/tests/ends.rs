@@ -126,6 +126,7 @@ fn what_cannot_be_opened_ends_no_render() {
         engine.send(Command::Open(Box::new(Request { path, starts: true, ..folder.request() })));
         wait_for(&engine, "loading", |update| matches!(update, Update::Phase(Phase::Loading)).then_some(()));
         let phase = wait_for(&engine, "end of loading", |update| match update {
+            Update::Done(_) => panic!("its turn has not ended"),
             Update::Phase(phase) => Some(phase),
             _ => None,
         });

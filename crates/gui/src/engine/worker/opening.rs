@@ -39,10 +39,13 @@ impl Worker {
         }
     }
 
-    /// What was asked for is not rendered; why was told.
+    /// What was asked for is not rendered; why was told. What was rendered before goes on, and with it its turn in a queue.
     pub(super) fn fail_to_begin(&mut self) {
-        let phase = self.run.as_mut().map(Run::release);
-        self.outlet.send(Update::Phase(phase.unwrap_or_else(|| self.at_rest())));
+        if let Some(run) = &mut self.run {
+            let phase = run.release();
+            return self.outlet.send(Update::Phase(phase));
+        }
+        self.outlet.send(Update::Phase(self.at_rest()));
         self.outlet.send(Update::Done(Turn::Failed));
     }
 
