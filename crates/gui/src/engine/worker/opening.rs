@@ -1,6 +1,5 @@
 //! Opening scenes and films.
 
-use super::run::Run;
 use super::{Open, Worker};
 use crate::controls::PLAIN_REINHARD;
 use crate::engine::{LoadedFacts, Phase, Request, Update, load};
