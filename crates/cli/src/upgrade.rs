@@ -2,29 +2,33 @@
 
 use crate::console::Console;
 use crate::{refuse, refuse_scene, tell_findings};
+use indigo_decl::Resolved;
 use indigo_front::flags::Arguments;
 use indigo_front::load::with_load_options;
 use indigo_front::messages::{Messages as _, count};
-use indigo_front::packs::is_pack;
 use indigo_front::prepare::overwrites;
 use indigo_front::status::{BAD_INPUT, FAILED, RENDERED};
 use indigo_front::{VERSION, paths};
 use indigo_render::atomic::write_atomically;
 use indigo_scene::load_canonical;
+use std::cell::RefCell;
+use std::collections::{BTreeMap, HashSet};
 use std::io::Write as _;
-use std::path::{Path, absolute};
+use std::path::{Path, PathBuf, absolute};
+use std::sync::Arc;
 
 /// Writes a scene anew; the exit status.
 pub fn upgrade(arguments: &Arguments, console: &mut Console) -> u8 {
     let [scene, output] = &arguments.files[..] else { return refuse("two files are expected", console) };
-    if is_pack(scene) {
-        return refuse(&format!("{scene} is packed: --unpack it first"), console);
-    }
     if !Path::new(output).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("igs")) {
         return refuse(&format!("{output}: a name that ends in .igs is expected"), console);
     }
     let title = format!("{scene}, written anew by {VERSION}");
-    let rewrite = |written: &str, found: &str| seen_from(written, Path::new(found), Path::new(output));
+    let unpacked = Unpacked::beside(Path::new(output));
+    let rewrite = |written: &str, found: &Resolved| {
+        let path = seen_from(written, Path::new(&found.path), Path::new(output));
+        path.unwrap_or_else(|| unpacked.take(found))
+    };
     let loaded =
         with_load_options(scene, arguments, |options| load_canonical(scene, options, &title, &rewrite));
     let (loaded, read) = match loaded {
@@ -41,23 +45,72 @@ pub fn upgrade(arguments: &Arguments, console: &mut Console) -> u8 {
         return FAILED;
     }
     let Some(text) = loaded.text else { return BAD_INPUT };
-    if let Some(path) = loaded.unreachable.first() {
-        let what = "is in a packed file, where no path leads: unpack that, and include what is in it";
-        return refuse(&format!("{scene}: {path} {what}"), console);
+    let files = unpacked.files();
+    if let Some((path, _)) = files.iter().find(|(path, bytes)| holds_something_else(path, bytes)) {
+        let what = "is there already, and would be written over: give another name";
+        return refuse(&format!("{} {what}", path.display()), console);
     }
-    match write_atomically(Path::new(output), |file| file.write_all(text.as_bytes())) {
+    let write = |path: &Path, bytes: &[u8]| {
+        write_atomically(path, |file| file.write_all(bytes)).map_err(|error| (path.to_owned(), error))
+    };
+    let written = files.iter().try_for_each(|(path, bytes)| write(path, bytes));
+    match written.and_then(|()| write(Path::new(output), text.as_bytes())) {
         Ok(()) => {
+            let with = match files.len() {
+                0 => String::new(),
+                n => format!(", and {} of packed ones in {}", count(n, "file"), unpacked.folder.display()),
+            };
             let missing = match loaded.missing {
                 0 => String::new(),
                 n => format!(", without {} that it names", count(n, "file")),
             };
-            console.say(&format!("Saved {output}{missing}"));
+            console.say(&format!("Saved {output}{with}{missing}"));
             RENDERED
         }
-        Err(error) => {
-            console.error(&format!("cannot write {output}: {error}"));
+        Err((path, error)) => {
+            console.error(&format!("cannot write {}: {error}", path.display()));
             FAILED
         }
+    }
+}
+
+/// Whether a file is there that has not these bytes.
+fn holds_something_else(path: &Path, bytes: &[u8]) -> bool {
+    path.exists() && std::fs::read(path).ok().as_deref() != Some(bytes)
+}
+
+/// Files of packed scenes and materials, where no path leads: they are written into a folder beside the scene.
+struct Unpacked {
+    /// The folder: `scene.igs` has `scene_files`.
+    folder: PathBuf,
+    taken: RefCell<BTreeMap<String, (String, Arc<[u8]>)>>,
+}
+
+impl Unpacked {
+    fn beside(output: &Path) -> Self {
+        let mut name = output.file_stem().unwrap_or_default().to_owned();
+        name.push("_files");
+        Self { folder: output.with_file_name(name), taken: RefCell::default() }
+    }
+
+    /// Takes a file, and gives its path as the scene can write it.
+    fn take(&self, found: &Resolved) -> String {
+        let mut taken = self.taken.borrow_mut();
+        let names: HashSet<String> = taken.values().map(|(name, _)| name.to_lowercase()).collect();
+        // Packs allow no names but those that every system has.
+        let last = found.path.rsplit('/').next().unwrap_or_default();
+        let numbered = (2_u32..).map(|n| format!("{n}_{last}"));
+        let free =
+            std::iter::once(last.to_owned()).chain(numbered).find(|n| !names.contains(&n.to_lowercase()));
+        let new = || (free.unwrap_or_default(), found.bytes.clone());
+        let (name, _) = taken.entry(found.path.clone()).or_insert_with(new);
+        format!("{}/{name}", self.folder.file_name().unwrap_or_default().to_string_lossy())
+    }
+
+    /// What was taken: where it goes, and its bytes.
+    fn files(&self) -> Vec<(PathBuf, Arc<[u8]>)> {
+        let taken = self.taken.borrow();
+        taken.values().map(|(name, bytes)| (self.folder.join(name), bytes.clone())).collect()
     }
 }
 

@@ -193,6 +193,7 @@ texts! {
     QUEUE_HINT = "Each is rendered until its own halting condition is met, then saved.";
     QUEUE_HALT = "Otherwise halt at";
     QUEUE_HALT_UNIT = " spp";
+    TURN_FAILED_HINT = "The log says why";
     QUEUE_HALT_HINT = "Samples per pixel for scenes without a halting condition";
     QUEUE_START = "Start the queue";
     QUEUE_END = "Stop after this scene";

@@ -44,11 +44,13 @@ use std::io::ErrorKind;
 /// What may help where a port cannot be listened at.
 fn way_out(why: &std::io::Error, port: u16) -> &'static str {
     match why.kind() {
-        ErrorKind::AddrInUse => "another master may be running, or choose another port with -p",
-        ErrorKind::PermissionDenied if port < 1024 => {
-            "those below 1024 are the system's own as a rule: choose another port with -p"
+        ErrorKind::AddrInUse => {
+            "another master may be running, or choose another port (on a command line with -p)"
         }
-        _ => "choose another port with -p",
+        ErrorKind::PermissionDenied if port < 1024 => {
+            "those below 1024 are the system's own as a rule: choose another port (on a command line with -p)"
+        }
+        _ => "choose another port (on a command line with -p)",
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::load::{LoadOptions, load};
 use crate::schema::SCENE;
-use indigo_decl::{Element, bind};
+use indigo_decl::{Element, Resolved, bind};
 use indigo_diag::{Sink, SourceMap, Span};
 use indigo_igs::{read_scene, write_explained};
 use std::cell::{Cell, RefCell};
@@ -12,8 +12,6 @@ use std::collections::BTreeMap;
 pub struct LoadedCanonical {
     /// Its text, if nothing was wrong.
     pub text: Option<String>,
-    /// Paths that cannot be written: see [`load_canonical`].
-    pub unreachable: Vec<String>,
     /// How many files it names that cannot be had: those keep the paths that they had.
     pub missing: usize,
     /// All scene files that were read.
@@ -23,17 +21,16 @@ pub struct LoadedCanonical {
 }
 
 /// Reads a scene with all that it includes, whatever version of the format it is written in, and writes it anew as one file.
-/// `rewrite` gives what stands in place of a path, of which it gets the text and where the file was found; `None` where no
-/// path leads there. The scene is checked before: what has errors has no text.
+/// `rewrite` gives what stands in place of a path, of which it gets the text and the file that was found. The scene is
+/// checked before: what has errors has no text.
 pub fn load_canonical(
     path: &str,
     options: &LoadOptions,
     title: &str,
-    rewrite: &dyn Fn(&str, &str) -> Option<String>,
+    rewrite: &dyn Fn(&str, &Resolved) -> String,
 ) -> LoadedCanonical {
     let checked = load(path, &LoadOptions { check_only: true, ..*options });
-    let nothing =
-        |sources, sink| LoadedCanonical { text: None, unreachable: vec![], missing: 0, sources, sink };
+    let nothing = |sources, sink| LoadedCanonical { text: None, missing: 0, sources, sink };
     if checked.sink.has_errors() {
         return nothing(checked.sources, checked.sink);
     }
@@ -43,7 +40,6 @@ pub fn load_canonical(
         // The files have changed meanwhile.
         return nothing(sources, again);
     };
-    let unreachable = RefCell::new(vec![]);
     let missing = Cell::new(0);
     let known = RefCell::new(BTreeMap::new());
     let find = |written: &str, span: Span| {
@@ -52,10 +48,7 @@ pub fn load_canonical(
             missing.set(missing.get() + 1);
             return written.to_owned();
         };
-        rewrite(written, &found.path).unwrap_or_else(|| {
-            unreachable.borrow_mut().push(written.to_owned());
-            written.to_owned()
-        })
+        rewrite(written, &found)
     };
     // Not read again for each of the many materials that may use it.
     let find_once = |written: &str, span: Span| -> String {
@@ -66,13 +59,7 @@ pub fn load_canonical(
     by_place(&mut element.children, "medium");
     let text = Some(write_explained(&element, &SCENE, title));
     // What the first reading has found, with the lowering's share.
-    LoadedCanonical {
-        text,
-        unreachable: unreachable.into_inner(),
-        missing: missing.get(),
-        sources: checked.sources,
-        sink: checked.sink,
-    }
+    LoadedCanonical { text, missing: missing.get(), sources: checked.sources, sink: checked.sink }
 }
 
 /// Orders elements of a name by file and place: of media of one precedence the one that comes later wins.

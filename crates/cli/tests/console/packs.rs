@@ -1,6 +1,9 @@
 //! Packing scenes, rendering them as they are, and unpacking them.
 
 use super::workbench::Workbench;
+use std::io::Write as _;
+use zip::ZipWriter;
+use zip::write::SimpleFileOptions;
 
 const QUIET: &str = "<logging>false</logging>";
 const CHECKER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../testscenes/textures/checker.png");
@@ -232,6 +235,61 @@ fn a_scene_written_anew_renders_the_same() {
     let bad = bench.run(&["--upgrade", "bad.igs", "good.igs"]);
     assert!(bad.status == Some(2) && bad.stderr.contains("bad.igs:1:"), "{bad:?}");
     assert!(!bench.path("good.igs").exists());
+}
+
+/// A packed material of a name whose texture is called `tile.png` in each.
+fn write_packed_material(bench: &Workbench, path: &str, name: &str, texture: &[u8]) {
+    let material = format!(
+        "<scenedata><material><name>{name}</name><diffuse><albedo_texture><uv_set>uv</uv_set>\
+         <path>c:\\maps\\tile.png</path></albedo_texture></diffuse></material></scenedata>"
+    );
+    let mut zip = ZipWriter::new(std::fs::File::create(bench.path(path)).expect("a file"));
+    for (member, content) in [("tile.igm", material.as_bytes()), ("tile.png", texture)] {
+        zip.start_file(member, SimpleFileOptions::default()).expect("a member");
+        zip.write_all(content).expect("its content");
+    }
+    zip.finish().expect("an archive");
+}
+
+/// Their files come to lie beside it, two of one name, too; what else is there stays.
+#[test]
+fn packed_scenes_and_materials_are_written_anew_with_their_files() {
+    let bench = bench();
+    let checker = std::fs::read(CHECKER).expect("a test scene's texture");
+    let other = std::fs::read(CHECKER.replace("checker.png", "tiles.png")).expect("a test scene's texture");
+    write_packed_material(&bench, "a.pigm", "tile a", &checker);
+    write_packed_material(&bench, "b.pigm", "tile b", &other);
+    let scene = std::fs::read_to_string(bench.path("scene.igs")).expect("the scene");
+    let includes = "<include><pathname>a.pigm</pathname></include><include><pathname>b.pigm</pathname></include><include>";
+    let scene = scene.replacen("<include>", includes, 1);
+    bench.write("scene.igs", &scene.replace("<material_name>wood<", "<material_name>tile b<"));
+    assert_eq!(bench.run(&["--pack", "scene.igs", "out.pigs"]).status, Some(0));
+    std::fs::create_dir(bench.path("new")).expect("a folder");
+    let pixels = |scene: &str| {
+        let ran = bench.run(&[scene, "-haltspp", "4", "-t", "1", "-o", "picture.png"]);
+        assert_eq!(ran.status, Some(0), "{ran:?}");
+        let bytes = std::fs::read(bench.path("picture.png")).expect("a file");
+        indigo_formats::image::decode("picture.png", &bytes).expect("a picture").pixels
+    };
+    let expected = pixels("scene.igs");
+    for (old, files) in [("scene.igs", 2), ("out.pigs", 4)] {
+        let ran = bench.run(&["--upgrade", old, "new/anew.igs"]);
+        assert_eq!(ran.status, Some(0), "{ran:?}");
+        let told = format!("Saved new/anew.igs, and {files} files of packed ones in new/anew_files");
+        assert!(ran.stderr.contains(&told), "{}", ran.stderr);
+        let found = std::fs::read_dir(bench.path("new/anew_files")).expect("a folder").count();
+        assert_eq!(found, files);
+        assert_eq!(pixels("new/anew.igs"), expected, "{old}");
+        // The same files once more are no reason to refuse, others are.
+        assert_eq!(bench.run(&["--upgrade", old, "new/anew.igs"]).status, Some(0));
+        let name = std::fs::read_dir(bench.path("new/anew_files")).expect("a folder").next();
+        let file = name.expect("a file").expect("a file").path();
+        std::fs::write(&file, "mine").expect("a file");
+        let ran = bench.run(&["--upgrade", old, "new/anew.igs"]);
+        assert!(ran.status == Some(2) && ran.stderr.contains("is there already"), "{ran:?}");
+        assert_eq!(std::fs::read(&file).expect("a file"), b"mine");
+        std::fs::remove_dir_all(bench.path("new/anew_files")).expect("a folder");
+    }
 }
 
 /// If it is asked for, a scene is packed and written anew without the textures that are missing, which it names all the same.

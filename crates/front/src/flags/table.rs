@@ -170,7 +170,7 @@ pub static FLAGS: &[Flag] = &[
         "upgrade",
         None,
         Action::Upgrade,
-        "Write a scene, of whatever version of the format, anew: one file, in the form of the manual, with comments: --upgrade SCENE.igs OUT.igs. What has no effect is left out, and told.",
+        "Write a scene, of whatever version of the format, anew: one file, in the form of the manual, with comments: --upgrade SCENE.igs OUT.igs. What has no effect is left out, and told. Files of packed scenes and materials go into the folder OUT_files beside it.",
     ),
     flag(
         "list-files",

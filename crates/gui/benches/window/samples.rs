@@ -6,8 +6,10 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
-const PAIRS: usize = 5;
-const SAMPLES_PER_PIXEL: &str = "20";
+/// Two runs of one program differ by some per cent on a machine that others use, too.
+const PAIRS: usize = 7;
+/// Half a minute: what happens but once, such as making the first pictures, is not all that is measured.
+const SAMPLES_PER_PIXEL: &str = "60";
 const SIZE: [u16; 2] = [1280, 800];
 
 /// Seconds of a run.
@@ -25,8 +27,15 @@ pub fn measure(folder: &Path) {
     );
     let scene = saved_once(folder);
     let mut ratios = vec![];
-    for _ in 0..PAIRS {
-        let (console, window) = (by_console(folder, &scene), by_window(folder, &scene));
+    for pair in 0..PAIRS {
+        // Neither always comes first, where a machine is faster after a rest.
+        let (console, window) = if pair % 2 == 0 {
+            let console = by_console(folder, &scene);
+            (console, by_window(folder, &scene))
+        } else {
+            let window = by_window(folder, &scene);
+            (by_console(folder, &scene), window)
+        };
         let ratio = window.rendering / console.rendering;
         println!(
             "  console {:.2} ({:.2}), window {:.2} ({:.2}): {:+.1} %",

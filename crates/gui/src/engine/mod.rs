@@ -158,8 +158,11 @@ pub enum Update {
     Gone,
 }
 
-/// When the window is drawn after news. Without any delay egui draws it twice, for answers to what people do.
+/// When the window is drawn after a new picture. Without any delay egui draws it twice, for answers to what people do.
 const SOON: Duration = Duration::from_millis(1);
+/// When it is drawn after other news, several of which often come together: nobody sees that delay, and each time it is
+/// drawn costs a machine without a graphics card some hundredths of a second.
+const WITH_OTHERS: Duration = Duration::from_millis(30);
 
 /// Where the engine's news go.
 #[derive(Clone)]
@@ -173,12 +176,17 @@ impl Outlet {
     pub fn send(&self, update: Update) {
         // Without a window nobody wants to know.
         drop(self.updates.send(update));
-        self.context.request_repaint_after(SOON);
+        self.context.request_repaint_after(WITH_OTHERS);
     }
 
     /// Tells how far a render is.
     pub fn tell_progress(&self, progress: Progress) {
         self.send(Update::Progress(progress, memory()));
+    }
+
+    /// The same where the picture is developed, which wakes the window.
+    pub fn tell_progress_with_picture(&self, progress: Progress) {
+        drop(self.updates.send(Update::Progress(progress, memory())));
     }
 
     /// Tells something.

@@ -76,7 +76,11 @@ fn key(ui: &mut Ui, state: &mut State) {
 /// What the tool bar's button does, too, in the words of the part that is chosen.
 fn button(ui: &mut Ui, state: &mut State) {
     let Some(role) = state.part.role else { return };
-    let size = vec2(ui.available_width(), ui.spacing().interact_size.y + 4.0);
+    ui.vertical_centered_justified(|ui| begin_or_end(ui, state, role));
+}
+
+fn begin_or_end(ui: &mut Ui, state: &mut State, role: Role) {
+    let size = vec2(0.0, ui.spacing().interact_size.y + 4.0);
     if state.is_under_way() {
         let can_stop = state.phase != Phase::Ending;
         if ui.add_enabled(can_stop, Button::new(words::STOP).min_size(size)).clicked() {

@@ -6,6 +6,8 @@ use crate::log::Weight;
 use crate::question::{PathLine, Question};
 use crate::state::State;
 use crate::{theme, words};
+use eframe::egui::text::{CCursor, CCursorRange};
+use eframe::egui::text_edit::TextEditState;
 use eframe::egui::{Button, Context, Id, Key, Modal, Response, TextEdit, Ui};
 
 /// Shows a question, if there is one, and does what is answered.
@@ -160,6 +162,11 @@ fn path_line(ui: &mut Ui, line: &mut PathLine) -> Option<bool> {
     let field = ui.add_enabled(!is_checked, field).labelled_by(name);
     if !is_checked && std::mem::take(&mut line.is_new) {
         field.request_focus();
+        // Where one goes on typing, or takes back a letter.
+        let mut edit = TextEditState::load(ui.ctx(), field.id).unwrap_or_default();
+        let end = CCursor::new(line.text.chars().count());
+        edit.cursor.set_char_range(Some(CCursorRange::one(end)));
+        edit.store(ui.ctx(), field.id);
     }
     if field.changed() {
         line.wrong.clear();

@@ -22,7 +22,10 @@ pub fn queue(ui: &mut Ui, state: &mut State) {
             if button.clicked() {
                 removed = Some(index);
             }
-            ui.weak(words::turn(*turn));
+            let how = ui.weak(words::turn(*turn));
+            if *turn == Turn::Failed {
+                how.on_hover_text(words::TURN_FAILED_HINT);
+            }
             ui.add(Label::new(&name).truncate()).on_hover_text(path.display().to_string());
         });
     }

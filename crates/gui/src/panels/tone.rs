@@ -7,10 +7,17 @@ use crate::engine::Histogram;
 use crate::state::{State, Tool};
 use crate::{theme, words};
 use eframe::egui::{
-    Button, Checkbox, Color32, ComboBox, Mesh, Pos2, Rect, Response, Sense, Shape, Slider, Stroke, Ui, pos2,
-    vec2,
+    Align, Button, Checkbox, Color32, ComboBox, Mesh, Pos2, Rect, Response, Sense, Shape, Slider, Stroke, Ui,
+    pos2, vec2,
 };
 use indigo_imaging::Response as Curves;
+
+/// Whether a list of choices was not shown in the pass before: it opens where what is chosen can be seen.
+fn has_just_opened(ui: &Ui) -> bool {
+    let pass = ui.ctx().cumulative_pass_nr();
+    let last = ui.data_mut(|data| std::mem::replace(data.get_temp_mut_or(ui.scope_id(), 0), pass));
+    last + 1 < pass
+}
 
 /// See the module.
 pub fn tone(ui: &mut Ui, state: &mut State) {
@@ -97,9 +104,14 @@ fn response(ui: &mut Ui, state: &mut State, controls: &mut Controls) {
                     controls.response = display;
                     state.awaited_response = None;
                 }
+                let is_new = has_just_opened(ui);
                 for (name, path) in &state.responses {
-                    if ui.selectable_label(controls.response.name() == name, words::response(name)).clicked()
-                    {
+                    let is_chosen = controls.response.name() == name;
+                    let entry = ui.selectable_label(is_chosen, words::response(name));
+                    if is_chosen && is_new {
+                        entry.scroll_to_me(Some(Align::Center));
+                    }
+                    if entry.clicked() {
                         state.awaited_response = Some(name.clone());
                         chosen = Some(Action::ReadResponse(name.clone(), path.clone()));
                     }
@@ -143,8 +155,14 @@ fn white(ui: &mut Ui, state: &mut State, controls: &mut Controls) {
             .width(theme::CONTROL)
             .selected_text(controls.white_name())
             .show_ui(ui, |ui| {
+                let is_new = has_just_opened(ui);
                 for illuminant in indigo_spectrum::illuminant::ALL {
-                    ui.selectable_value(&mut controls.white, illuminant.white_xy, illuminant.name);
+                    let is_chosen = controls.white == illuminant.white_xy;
+                    let entry =
+                        ui.selectable_value(&mut controls.white, illuminant.white_xy, illuminant.name);
+                    if is_chosen && is_new {
+                        entry.scroll_to_me(Some(Align::Center));
+                    }
                 }
             })
             .response

@@ -66,6 +66,15 @@ impl HosekSky {
         Self { parameters, luminances: hat_luminances() }
     }
 
+    /// The same with that many times the radiance.
+    #[must_use]
+    pub fn scaled(mut self, gain: f64) -> Self {
+        for row in &mut self.parameters {
+            row[9] = (row[9].to_f64() * gain) as Real;
+        }
+        self
+    }
+
     /// Radiance from a direction above the horizon, at cosines from zenith and sun.
     #[inline]
     pub fn radiance(&self, cos_theta: Real, cos_gamma: Real, lambda: &SampledWavelengths) -> SampledSpectrum {

@@ -23,6 +23,14 @@ pub struct SunDisc {
     pub limb: Option<&'static hosek::Limb>,
 }
 
+impl SunDisc {
+    /// The same with that many times the radiance.
+    #[must_use]
+    pub fn scaled(self, gain: f64) -> Self {
+        Self { radiance: self.radiance.scaled(gain), ..self }
+    }
+}
+
 /// A little-endian table of single-precision numbers that the program carries.
 fn number(bytes: &[u8], i: usize) -> f64 {
     let at = 4 * i;

@@ -93,6 +93,13 @@ impl PreethamSky {
         Self { perez, scale, daylight, luminances }
     }
 
+    /// The same with that many times the radiance.
+    #[must_use]
+    pub fn scaled(mut self, gain: f64) -> Self {
+        self.scale[0] = (self.scale[0].to_f64() * gain) as Real;
+        self
+    }
+
     /// Radiance from a direction above the horizon, at cosines from zenith and sun.
     #[inline]
     pub fn radiance(&self, cos_theta: Real, cos_gamma: Real, lambda: &SampledWavelengths) -> SampledSpectrum {

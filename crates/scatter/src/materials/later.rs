@@ -1,7 +1,7 @@
 //! Kinds of material that later format versions brought and that are not rendered as they are meant: for each, something
 //! near stands in.
 
-use indigo_decl::{Block, Field, Kind, Presence, Range};
+use indigo_decl::{Block, Field, Group, Kind, Presence, Range};
 
 /// The declaration of `sum`.
 pub static SUM: Block = Block::new(
@@ -10,6 +10,7 @@ pub static SUM: Block = Block::new(
      stands in, with a warning.",
     &[Field::new("mat", Kind::Block(&MAT), Presence::Repeated, "One of them.")],
 )
+.with_needs(&[Group::any(&["mat"])])
 .with_example("<sum><mat><mat_name>white</mat_name><weight>1</weight></mat></sum>");
 
 /// The declaration of `mat`.

@@ -31,11 +31,12 @@ pub(super) fn lights(
     let mut colours = vec![];
     for (kind, weight) in shining(kind, materials, context) {
         if kind.block.name == "sunsky" {
-            if weight != 1.0 || scale.is_some() {
-                let message = "sun and sky keep their brightness: <weight> and <emission_scale> have no effect on a <sunsky>";
+            if scale.is_some() {
+                let message =
+                    "sun and sky keep their brightness: <emission_scale> has no effect on a <sunsky>";
                 context.sink.push(Diagnostic::warning(codes::IDLE_SCALE, kind.span, message));
             }
-            lights.extend(environment::skylight(kind, materials, context));
+            lights.extend(environment::skylight(kind, weight, materials, context));
             colours.resize(lights.len(), None);
             continue;
         }

@@ -35,7 +35,7 @@ pub(super) fn distant_lights(
         lights.push((Background(radiance).into(), layer.group));
     }
     if let Some(node) = root.node("skylight") {
-        lights.extend(skylight(node, materials, context));
+        lights.extend(skylight(node, 1.0, materials, context));
     }
     if let Some(map) = root.node("env_map").and_then(Node::alternative) {
         layer.keep_colour_out_of(map, context.sink);
@@ -47,9 +47,10 @@ pub(super) fn distant_lights(
     lights
 }
 
-/// The sun, and the sky unless it is black, each with its layer.
+/// The sun, and the sky unless it is black, `gain` times as bright, each with its layer.
 pub(super) fn skylight(
     node: &Node,
+    gain: f64,
     materials: &MaterialTable,
     context: &mut Context,
 ) -> Vec<(DistantLight, u16)> {
@@ -74,8 +75,11 @@ pub(super) fn skylight(
         );
         return vec![];
     };
+    if gain == 0.0 {
+        return vec![];
+    }
     if is_outside {
-        let disc = space::sun(Sun::solid_angle(sun::RADIUS));
+        let disc = space::sun(Sun::solid_angle(sun::RADIUS)).scaled(gain);
         sun_layer.keep_colour_out_of(node, context.sink);
         return vec![(Sun::new(towards, sun::RADIUS, disc).into(), sun_layer.group)];
     }
@@ -93,15 +97,16 @@ pub(super) fn skylight(
     }
     let elevation = towards.z.min(1.0).asin();
     let (model, disc) = if is_preetham {
-        let sky = SkyModel::Preetham(Box::new(PreethamSky::new(elevation, known)));
+        let sky = SkyModel::Preetham(Box::new(PreethamSky::new(elevation, known).scaled(gain)));
         (sky, preetham::sun(elevation, known))
     } else {
-        (SkyModel::Hosek(Box::new(HosekSky::new(elevation, known))), hosek::sun(elevation, known))
+        let sky = SkyModel::Hosek(Box::new(HosekSky::new(elevation, known).scaled(gain)));
+        (sky, hosek::sun(elevation, known))
     };
     for layer in [&sky_layer, &sun_layer] {
         layer.keep_colour_out_of(node, context.sink);
     }
-    let (sky, sun) = (Sky::new(towards, model), Sun::new(towards, sun::RADIUS, disc));
+    let (sky, sun) = (Sky::new(towards, model), Sun::new(towards, sun::RADIUS, disc.scaled(gain)));
     vec![(sky.into(), sky_layer.group), (sun.into(), sun_layer.group)]
 }
 

@@ -92,6 +92,8 @@ fn versions_are_named_of_what_is_not_rendered() {
     assert_eq!(dump(&scene_with(&specular(absorbs), &[warning])), dump(&scene_with(&specular(""), &[])));
     let sum = with("material", "<sum><mat><mat_name>n</mat_name><weight>1</weight></mat></sum>");
     scene_with(&sum, &["W0320 <sum> is of a later format version (4.0) and not rendered: n stands in"]);
+    let empty = findings(&loaded(&with("material", "<sum></sum>")));
+    assert!(empty[0].1.starts_with("E0201 <sum> has none of <mat>"), "{empty:?}");
     let sunsky = with("material", "<sunsky><sundir>0 0.6 1</sundir></sunsky>");
     scene_with(&sunsky, &["W0320 <sunsky> (of version 3.0) is rendered as a background alone"]);
 }

@@ -20,8 +20,8 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// How often the window is told how far it is. Each time it is drawn anew, which costs a machine without a graphics card
-/// a tenth of a second of one core.
-pub const BETWEEN_NEWS: Duration = Duration::from_secs(1);
+/// some hundredths of a second of each core.
+pub const BETWEEN_NEWS: Duration = Duration::from_secs(2);
 /// When the first picture comes; the time between two grows fourfold up to the setting `display_period`.
 const FIRST_PICTURE: Duration = Duration::from_millis(250);
 /// The same as long as there are pixels without a sample, at most.
@@ -45,8 +45,8 @@ pub struct Run {
     pictures: u32,
     /// As was told last.
     samples_per_pixel: f64,
-    /// What copying a film took.
-    cost: Duration,
+    /// What copying the film took.
+    copying: Duration,
 }
 
 /// The picture's path, if the command line names one; an error after telling what is wrong with it.
@@ -115,7 +115,7 @@ impl Run {
             shown: now,
             pictures: 0,
             samples_per_pixel: 0.0,
-            cost: Duration::ZERO,
+            copying: Duration::ZERO,
         })
     }
 
@@ -198,12 +198,17 @@ impl Run {
         }
         self.samples_per_pixel = progress.samples_per_pixel;
         let is_first_rest = self.rests && !self.rest_shown && self.source.is_resting();
-        if is_first_rest || self.news.elapsed() >= BETWEEN_NEWS {
-            self.tell(progress, outlet);
-        }
-        if is_first_rest || !self.rests && self.shown.elapsed() >= self.between_pictures() {
-            self.show(desk, outlet);
+        let shows =
+            is_first_rest || !self.rests && self.shown.elapsed() >= self.between_pictures(desk.last_cost());
+        if shows {
             self.rest_shown = is_first_rest;
+            if self.show(desk, outlet) {
+                self.news = Instant::now();
+                outlet.tell_progress_with_picture(progress);
+            }
+        }
+        if self.news.elapsed() >= BETWEEN_NEWS {
+            self.tell(progress, outlet);
         }
         if is_first_rest {
             // Somebody may leave the machine like this.
@@ -212,25 +217,30 @@ impl Run {
         None
     }
 
-    fn between_pictures(&self) -> Duration {
+    /// How long the picture stays, where developing the last one took some time.
+    fn between_pictures(&self, developing: Duration) -> Duration {
         let growing = FIRST_PICTURE.saturating_mul(1 << (2 * self.pictures).min(16));
         let growing = if self.samples_per_pixel < 1.0 { growing.min(WHILE_IN_PARTS) } else { growing };
         // Developing takes long on a machine that is busy with other things, too: pictures come all the same.
         let longest = self.display_period.saturating_mul(LONGEST_WAIT);
-        let sparing = self.cost.saturating_mul(PART_FOR_PICTURES).min(longest);
+        let cost = self.copying + developing;
+        let sparing = cost.saturating_mul(PART_FOR_PICTURES).min(longest);
         self.display_period.min(growing).max(sparing)
     }
 
-    fn show(&mut self, desk: &Desk, messages: &mut dyn Messages) {
+    /// Has the film developed; whether there is something to be seen.
+    fn show(&mut self, desk: &Desk, messages: &mut dyn Messages) -> bool {
         let start = Instant::now();
         let sums = self.source.sums(messages);
         // A black picture would be taken for what is rendered.
-        if sums.layers.iter().any(|layer| layer.totals.n_samples > 0.0) {
+        let has_samples = sums.layers.iter().any(|layer| layer.totals.n_samples > 0.0);
+        if has_samples {
             desk.set_film(Arc::new(sums));
         }
-        self.cost = start.elapsed().max(desk.last_cost());
+        self.copying = start.elapsed();
         self.shown = Instant::now();
         self.pictures += 1;
+        has_samples
     }
 
     fn tell(&mut self, progress: Progress, outlet: &Outlet) {
