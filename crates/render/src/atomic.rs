@@ -7,7 +7,7 @@
 //! such names. A temporary file's name has the number of the process and one that the process gives but once, and the
 //! file is made only where there is none of that name: nobody ever writes into another's.
 
-use std::fs::{File, OpenOptions};
+use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -27,11 +27,7 @@ pub fn write_atomically(
     let directory = directory_of(path);
     std::fs::create_dir_all(&directory)?;
     remove_stale(&directory);
-    match write_temporary(&directory, path, &write) {
-        // Another process took it for stale in the instant between its making and its lock.
-        Err(error) if error.kind() == ErrorKind::NotFound => write_temporary(&directory, path, &write)?,
-        other => other?,
-    }
+    write_temporary(&directory, path, &write)?;
     // The rename itself must reach the disk; not every file system can sync a directory.
     if let Ok(d) = File::open(&directory) {
         drop(d.sync_all());
@@ -53,11 +49,7 @@ pub fn check_writable(path: &Path) -> io::Result<()> {
     let (_, temporary) = new_temporary(&directory, path)?;
     let removed = std::fs::remove_file(&temporary);
     forget(&temporary);
-    match removed {
-        // Another process took it for stale.
-        Err(error) if error.kind() == ErrorKind::NotFound => Ok(()),
-        other => other,
-    }
+    removed
 }
 
 fn directory_of(path: &Path) -> PathBuf {
@@ -102,10 +94,13 @@ fn new_temporary(directory: &Path, path: &Path) -> io::Result<(File, PathBuf)> {
             Err(error) if error.kind() == ErrorKind::AlreadyExists => {}
             made => {
                 let file = made?;
-                // Where there are no locks, nobody can take the file for stale either.
-                drop(file.try_lock());
-                unfinished.push(temporary.clone());
-                return Ok((file, temporary));
+                // Where there are no locks, nobody can take the file for stale either. Another process may have done so
+                // before it was locked: that one has the lock, or has removed the file.
+                let is_ours = !matches!(file.try_lock(), Err(TryLockError::WouldBlock));
+                if is_ours && std::fs::exists(&temporary)? {
+                    unfinished.push(temporary.clone());
+                    return Ok((file, temporary));
+                }
             }
         }
     }
@@ -138,13 +133,17 @@ fn fill(file: &File, write: &impl Fn(&mut BufWriter<&File>) -> io::Result<()>) -
 fn remove_stale(directory: &Path) {
     let Ok(entries) = std::fs::read_dir(directory) else { return };
     for entry in entries.filter_map(Result::ok).filter(|e| is_temporary(&e.file_name().to_string_lossy())) {
-        let path = entry.path();
         let _making = unfinished();
-        let unlocked = OpenOptions::new().read(true).open(&path).is_ok_and(|file| file.try_lock().is_ok());
-        if unlocked {
-            // Another process may be faster.
-            drop(std::fs::remove_file(path));
-        }
+        remove_unless_locked(&entry.path());
+    }
+}
+
+/// Removes a file that nobody has locked, and keeps it locked until it is gone: who has just made it sees one or the other.
+fn remove_unless_locked(path: &Path) {
+    let Ok(file) = OpenOptions::new().read(true).open(path) else { return };
+    if file.try_lock().is_ok() {
+        // Another process may be faster.
+        drop(std::fs::remove_file(path));
     }
 }
 
@@ -159,6 +158,7 @@ fn is_temporary(name: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::sync::atomic::AtomicBool;
 
     fn scratch(name: &str) -> PathBuf {
         let directory = std::env::temp_dir().join(format!("indigo-atomic-{}-{name}", std::process::id()));
@@ -247,6 +247,33 @@ mod tests {
                     }
                 });
             }
+        });
+        assert_eq!(names(&root), ["a.png"]);
+        std::fs::remove_dir_all(root).unwrap();
+    }
+
+    /// Another process looks for what the dead left all the while, and sees files before they are locked.
+    #[test]
+    fn who_removes_what_is_stale_takes_nothing_of_the_living() {
+        let root = scratch("remover");
+        let path = root.join("a.png");
+        let is_done = AtomicBool::new(false);
+        std::thread::scope(|scope| {
+            for _ in 0..2 {
+                scope.spawn(|| {
+                    while !is_done.load(Ordering::Relaxed) {
+                        for entry in std::fs::read_dir(&root).unwrap().filter_map(Result::ok) {
+                            if is_temporary(&entry.file_name().to_string_lossy()) {
+                                remove_unless_locked(&entry.path());
+                            }
+                        }
+                    }
+                });
+            }
+            let put_all = || (0..3000).try_for_each(|i: u32| put(&path, &i.to_le_bytes()));
+            let result = std::panic::catch_unwind(put_all);
+            is_done.store(true, Ordering::Relaxed);
+            result.unwrap().unwrap();
         });
         assert_eq!(names(&root), ["a.png"]);
         std::fs::remove_dir_all(root).unwrap();
