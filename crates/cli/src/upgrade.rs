@@ -2,7 +2,6 @@
 
 use crate::console::Console;
 use crate::{refuse, refuse_scene, tell_findings};
-use indigo_decl::Resolved;
 use indigo_front::flags::Arguments;
 use indigo_front::load::with_load_options;
 use indigo_front::messages::{Messages as _, count};
@@ -25,9 +24,9 @@ pub fn upgrade(arguments: &Arguments, console: &mut Console) -> u8 {
     }
     let title = format!("{scene}, written anew by {VERSION}");
     let unpacked = Unpacked::beside(Path::new(output));
-    let rewrite = |written: &str, found: &Resolved| {
-        let path = seen_from(written, Path::new(&found.path), Path::new(output));
-        path.unwrap_or_else(|| unpacked.take(found))
+    let rewrite = |written: &str, found: &str, bytes: &Arc<[u8]>| {
+        let path = seen_from(written, Path::new(found), Path::new(output));
+        path.unwrap_or_else(|| unpacked.take(found, bytes))
     };
     let loaded =
         with_load_options(scene, arguments, |options| load_canonical(scene, options, &title, &rewrite));
@@ -83,7 +82,14 @@ fn holds_something_else(path: &Path, bytes: &[u8]) -> bool {
 struct Unpacked {
     /// The folder: `scene.igs` has `scene_files`.
     folder: PathBuf,
-    taken: RefCell<BTreeMap<String, (String, Arc<[u8]>)>>,
+    /// By where it was found.
+    taken: RefCell<BTreeMap<String, Taken>>,
+}
+
+/// A file, by its name in that folder.
+struct Taken {
+    name: String,
+    bytes: Arc<[u8]>,
 }
 
 impl Unpacked {
@@ -94,23 +100,23 @@ impl Unpacked {
     }
 
     /// Takes a file, and gives its path as the scene can write it.
-    fn take(&self, found: &Resolved) -> String {
+    fn take(&self, found: &str, bytes: &Arc<[u8]>) -> String {
         let mut taken = self.taken.borrow_mut();
-        let names: HashSet<String> = taken.values().map(|(name, _)| name.to_lowercase()).collect();
+        let names: HashSet<String> = taken.values().map(|file| file.name.to_lowercase()).collect();
         // Packs allow no names but those that every system has.
-        let last = found.path.rsplit('/').next().unwrap_or_default();
+        let last = found.rsplit('/').next().unwrap_or_default();
         let numbered = (2_u32..).map(|n| format!("{n}_{last}"));
         let free =
             std::iter::once(last.to_owned()).chain(numbered).find(|n| !names.contains(&n.to_lowercase()));
-        let new = || (free.unwrap_or_default(), found.bytes.clone());
-        let (name, _) = taken.entry(found.path.clone()).or_insert_with(new);
+        let new = || Taken { name: free.unwrap_or_default(), bytes: bytes.clone() };
+        let Taken { name, .. } = taken.entry(found.to_owned()).or_insert_with(new);
         format!("{}/{name}", self.folder.file_name().unwrap_or_default().to_string_lossy())
     }
 
     /// What was taken: where it goes, and its bytes.
     fn files(&self) -> Vec<(PathBuf, Arc<[u8]>)> {
         let taken = self.taken.borrow();
-        taken.values().map(|(name, bytes)| (self.folder.join(name), bytes.clone())).collect()
+        taken.values().map(|file| (self.folder.join(&file.name), file.bytes.clone())).collect()
     }
 }
 

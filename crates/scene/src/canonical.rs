@@ -2,11 +2,12 @@
 
 use crate::load::{LoadOptions, load};
 use crate::schema::SCENE;
-use indigo_decl::{Element, Resolved, bind};
+use indigo_decl::{Element, bind};
 use indigo_diag::{Sink, SourceMap, Span};
 use indigo_igs::{read_scene, write_explained};
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// A scene as far as it could be written in another form.
 pub struct LoadedCanonical {
@@ -21,13 +22,13 @@ pub struct LoadedCanonical {
 }
 
 /// Reads a scene with all that it includes, whatever version of the format it is written in, and writes it anew as one file.
-/// `rewrite` gives what stands in place of a path, of which it gets the text and the file that was found. The scene is
-/// checked before: what has errors has no text.
+/// `rewrite` gives what stands in place of a path, of which it gets the text, where the file was found, and what is in it.
+/// The scene is checked before: what has errors has no text.
 pub fn load_canonical(
     path: &str,
     options: &LoadOptions,
     title: &str,
-    rewrite: &dyn Fn(&str, &Resolved) -> String,
+    rewrite: &dyn Fn(&str, &str, &Arc<[u8]>) -> String,
 ) -> LoadedCanonical {
     let checked = load(path, &LoadOptions { check_only: true, ..*options });
     let nothing = |sources, sink| LoadedCanonical { text: None, missing: 0, sources, sink };
@@ -48,7 +49,7 @@ pub fn load_canonical(
             missing.set(missing.get() + 1);
             return written.to_owned();
         };
-        rewrite(written, &found)
+        rewrite(written, &found.path, &found.bytes)
     };
     // Not read again for each of the many materials that may use it.
     let find_once = |written: &str, span: Span| -> String {

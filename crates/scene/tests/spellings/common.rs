@@ -61,7 +61,9 @@ pub fn loaded(elements: &str) -> Loaded {
 pub fn canonical(elements: &str, told: &[&str]) -> Loaded {
     let scene = beside(format!("<scene>{SETTINGS}{elements}</scene>"));
     let written =
-        load_canonical("scene.igs", &LoadOptions::new(&scene), "A scene ---- anew-", &|path, _| path.into());
+        load_canonical("scene.igs", &LoadOptions::new(&scene), "A scene ---- anew-", &|path, _, _| {
+            path.into()
+        });
     let text = written.text.expect("a scene without errors");
     let loaded = load("scene.igs", &LoadOptions::new(&beside(text.clone())));
     assert_eq!(beyond(told, &loaded), [], "nothing is left to be told of\n{text}");
