@@ -9,7 +9,7 @@ use indigo_front::prepare::overwrites;
 use indigo_front::status::{BAD_INPUT, FAILED, RENDERED};
 use indigo_front::{VERSION, paths};
 use indigo_render::atomic::write_atomically;
-use indigo_scene::load_canonical;
+use indigo_scene::{NamedFile, load_canonical};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, HashSet};
 use std::io::Write as _;
@@ -24,9 +24,9 @@ pub fn upgrade(arguments: &Arguments, console: &mut Console) -> u8 {
     }
     let title = format!("{scene}, written anew by {VERSION}");
     let unpacked = Unpacked::beside(Path::new(output));
-    let rewrite = |written: &str, found: &str, bytes: &Arc<[u8]>| {
-        let path = seen_from(written, Path::new(found), Path::new(output));
-        path.unwrap_or_else(|| unpacked.take(found, bytes))
+    let rewrite = |file: &NamedFile| {
+        let path = seen_from(file.written, Path::new(file.path), Path::new(output));
+        path.unwrap_or_else(|| unpacked.take(file))
     };
     let loaded =
         with_load_options(scene, arguments, |options| load_canonical(scene, options, &title, &rewrite));
@@ -100,16 +100,16 @@ impl Unpacked {
     }
 
     /// Takes a file, and gives its path as the scene can write it.
-    fn take(&self, found: &str, bytes: &Arc<[u8]>) -> String {
+    fn take(&self, file: &NamedFile) -> String {
         let mut taken = self.taken.borrow_mut();
         let names: HashSet<String> = taken.values().map(|file| file.name.to_lowercase()).collect();
         // Packs allow no names but those that every system has.
-        let last = found.rsplit('/').next().unwrap_or_default();
+        let last = file.path.rsplit('/').next().unwrap_or_default();
         let numbered = (2_u32..).map(|n| format!("{n}_{last}"));
         let free =
             std::iter::once(last.to_owned()).chain(numbered).find(|n| !names.contains(&n.to_lowercase()));
-        let new = || Taken { name: free.unwrap_or_default(), bytes: bytes.clone() };
-        let Taken { name, .. } = taken.entry(found.to_owned()).or_insert_with(new);
+        let new = || Taken { name: free.unwrap_or_default(), bytes: file.bytes.clone() };
+        let Taken { name, .. } = taken.entry(file.path.to_owned()).or_insert_with(new);
         format!("{}/{name}", self.folder.file_name().unwrap_or_default().to_string_lossy())
     }
 

@@ -21,14 +21,23 @@ pub struct LoadedCanonical {
     pub sink: Sink,
 }
 
+/// A file that a scene names.
+pub struct NamedFile<'a> {
+    /// Its path, as it is written.
+    pub written: &'a str,
+    /// Where it was found.
+    pub path: &'a str,
+    /// What is in it.
+    pub bytes: &'a Arc<[u8]>,
+}
+
 /// Reads a scene with all that it includes, whatever version of the format it is written in, and writes it anew as one file.
-/// `rewrite` gives what stands in place of a path, of which it gets the text, where the file was found, and what is in it.
-/// The scene is checked before: what has errors has no text.
+/// `rewrite` gives what stands in place of the path of a file. The scene is checked before: what has errors has no text.
 pub fn load_canonical(
     path: &str,
     options: &LoadOptions,
     title: &str,
-    rewrite: &dyn Fn(&str, &str, &Arc<[u8]>) -> String,
+    rewrite: &dyn Fn(&NamedFile) -> String,
 ) -> LoadedCanonical {
     let checked = load(path, &LoadOptions { check_only: true, ..*options });
     let nothing = |sources, sink| LoadedCanonical { text: None, missing: 0, sources, sink };
@@ -49,7 +58,7 @@ pub fn load_canonical(
             missing.set(missing.get() + 1);
             return written.to_owned();
         };
-        rewrite(written, &found.path, &found.bytes)
+        rewrite(&NamedFile { written, path: &found.path, bytes: &found.bytes })
     };
     // Not read again for each of the many materials that may use it.
     let find_once = |written: &str, span: Span| -> String {

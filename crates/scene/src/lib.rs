@@ -16,7 +16,7 @@ mod scene;
 pub mod schema;
 mod settings;
 
-pub use canonical::{LoadedCanonical, load_canonical};
+pub use canonical::{LoadedCanonical, NamedFile, load_canonical};
 pub use contents::{Contents, LoadedContents, load_contents};
 pub use indigo_geom::Stop;
 pub use load::{LoadOptions, Loaded, LoadedDevelopment, Override, load, load_development};

@@ -135,7 +135,7 @@ fn what_has_a_placeholder_keeps_its_path() {
     let memory = Memory(format!("{HEAD}{texture}{SPHERE}{mesh}{model}{CAMERA}</scene>"));
     let overrides = [Override { option: "-placeholders", setting: "placeholders", value: "true".to_owned() }];
     let (plain, lenient) = (options(&memory), LoadOptions { overrides: &overrides, ..options(&memory) });
-    let anew = |options| load_canonical("scene.igs", options, "Anew", &|path, _, _| path.to_owned());
+    let anew = |options| load_canonical("scene.igs", options, "Anew", &|file| file.written.to_owned());
     let (refused, written) = (anew(&plain), anew(&lenient));
     assert!(refused.text.is_none() && refused.sink.has_errors());
     let text = written.text.expect("a scene");

@@ -60,10 +60,9 @@ pub fn loaded(elements: &str) -> Loaded {
 /// The same in the form that this program writes, of which no more than `told` is told.
 pub fn canonical(elements: &str, told: &[&str]) -> Loaded {
     let scene = beside(format!("<scene>{SETTINGS}{elements}</scene>"));
-    let written =
-        load_canonical("scene.igs", &LoadOptions::new(&scene), "A scene ---- anew-", &|path, _, _| {
-            path.into()
-        });
+    let written = load_canonical("scene.igs", &LoadOptions::new(&scene), "A scene ---- anew-", &|file| {
+        file.written.into()
+    });
     let text = written.text.expect("a scene without errors");
     let loaded = load("scene.igs", &LoadOptions::new(&beside(text.clone())));
     assert_eq!(beyond(told, &loaded), [], "nothing is left to be told of\n{text}");

@@ -112,7 +112,7 @@ fn a_max_scene_with_pseudo_comments_windows_paths_and_many_instances() {
     let mesh = files[3].clone();
     let title = "A scene of 3ds Max";
     let written =
-        load_canonical("scene.igs", &LoadOptions::new(&Folder(files)), title, &|path, _, _| path.into());
+        load_canonical("scene.igs", &LoadOptions::new(&Folder(files)), title, &|file| file.written.into());
     let text = written.text.expect("a scene without errors");
     let again = loaded(vec![("scene.igs", text.into_bytes()), mesh]);
     assert_found(&again, &[]);
