@@ -22,7 +22,8 @@ pub fn resource_directories() -> Vec<PathBuf> {
     let named = std::env::var_os("INDIGO_RESOURCES").map(PathBuf::from);
     let program = program_directory();
     let above = program.as_deref().and_then(|d| d.ancestors().find(|d| d.join(DATA).is_dir()));
-    named.into_iter().chain(program.clone()).chain(above.map(Path::to_path_buf)).collect()
+    let above = above.filter(|above| program.as_deref() != Some(above)).map(Path::to_path_buf);
+    named.into_iter().chain(program.clone()).chain(above).collect()
 }
 
 fn program_directory() -> Option<PathBuf> {

@@ -2,7 +2,7 @@
 
 use crate::load::{LoadOptions, read_and_bind};
 use indigo_decl::{ResolveError, Resolved, Resolver};
-use indigo_diag::{Sink, SourceMap, Span};
+use indigo_diag::{Sink, SourceId, SourceMap, Span};
 use std::collections::{BTreeSet, HashSet};
 use std::sync::{Mutex, PoisonError};
 
@@ -23,7 +23,7 @@ pub struct Need {
     pub path: String,
     /// Its size, or why it cannot be had.
     pub bytes: Result<u64, ResolveError>,
-    /// What names it first: a file, or a place in one as `file:line:column`; empty for the scene itself.
+    /// What names it first: a place in a file as `file:line:column`; empty for the scene itself.
     pub named_in: String,
 }
 
@@ -36,8 +36,9 @@ pub fn load_needs(path: &str, options: &LoadOptions) -> LoadedNeeds {
     let bound = read_and_bind(path, &recorded, &mut sources, &mut sink);
     let documents = recorder.read.into_inner().unwrap_or_else(PoisonError::into_inner);
     let mut list = List::default();
-    for need in documents {
-        list.add(need);
+    for (written, need) in documents {
+        let place = place_of(&written, &need.named_in, &sources);
+        list.add(Need { named_in: place.unwrap_or(need.named_in), ..need });
     }
     let mut asked = HashSet::new();
     if let Some(bound) = bound {
@@ -64,6 +65,15 @@ fn place(span: Span, sources: &SourceMap) -> String {
     format!("{}:{}:{}", sources.name(span.source), p.line, p.column)
 }
 
+/// Where a scene file names another one that it includes.
+fn place_of(written: &str, file: &str, sources: &SourceMap) -> Option<String> {
+    let mut all = (0..sources.len()).filter_map(|n| u16::try_from(n).ok()).map(SourceId);
+    let source = all.find(|id| sources.name(*id) == file)?;
+    let text = sources.text(source);
+    let start = text.windows(written.len().max(1)).position(|part| part == written.as_bytes())?;
+    Some(place(Span::new(source, start, start + written.len()), sources))
+}
+
 /// Files, each once: what is missing under one name may be missing from two folders, and is looked for in both.
 #[derive(Default)]
 struct List {
@@ -86,14 +96,15 @@ impl List {
 /// Hands files on and keeps what became of each.
 struct Recorder<'a> {
     inner: &'a dyn Resolver,
-    read: Mutex<Vec<Need>>,
+    /// Each with its path as it is written.
+    read: Mutex<Vec<(String, Need)>>,
 }
 
 impl Resolver for Recorder<'_> {
     fn read(&self, path: &str, from: &str) -> Result<Resolved, ResolveError> {
         let found = self.inner.read(path, from);
         let read = need(path, from.to_owned(), found.clone());
-        self.read.lock().unwrap_or_else(PoisonError::into_inner).push(read);
+        self.read.lock().unwrap_or_else(PoisonError::into_inner).push((path.to_owned(), read));
         found
     }
     fn has(&self, path: &str, from: &str) -> bool {

@@ -45,9 +45,9 @@ fn every_file_is_named_once_and_what_is_missing_has_a_place() {
         [
             ("ag.nk", Some(7), "parts.igs:1:52"),
             ("au.nk", Some(4), "scene.igs:3:41"),
-            ("gone.igs", None, "scene.igs"),
+            ("gone.igs", None, "scene.igs:2:20"),
             ("lost.nk", None, "scene.igs:5:41"),
-            ("parts.igs", Some(parts.len() as u64), "scene.igs"),
+            ("parts.igs", Some(parts.len() as u64), "scene.igs:1:27"),
             ("scene.igs", Some(scene.len() as u64), ""),
         ]
     );

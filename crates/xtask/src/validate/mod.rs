@@ -105,7 +105,7 @@ impl Options {
 /// What could not be begun, or how much failed; there is a report of the latter.
 pub fn run(arguments: &[String]) -> Outcome {
     let options = Options::parse(arguments)?;
-    let (start, date) = (Instant::now(), here::date());
+    let date = here::date();
     let all = [oracles::all(), agreement::all(), grid::all(), cross::all()].concat();
     let left_out = LeftOut::count(all.iter().filter_map(|check| options.leaves_out(check)));
     let checks: Vec<Check> = all.into_iter().filter(|check| options.leaves_out(check).is_none()).collect();
@@ -131,6 +131,8 @@ pub fn run(arguments: &[String]) -> Outcome {
     let ways = signs::ways(&checks);
     let comparisons: usize = checks.iter().map(Check::comparisons).sum::<usize>() + ways.len();
     let form = options.form;
+    // The program is built, and the other renderer installed.
+    let start = Instant::now();
     println!("{} checks, {comparisons} comparisons, {} renders each", checks.len(), form.seeds());
     let mut renders = console.render(&checks, form)?;
     cross::render(&checks, &mut renders, &console, form)?;

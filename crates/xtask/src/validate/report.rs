@@ -144,7 +144,7 @@ impl Report {
             println!("{name:<28} {:>4} comparisons, {failed:>3} failed, least p {least:.1e}", verdicts.len());
         }
         println!("{}", self.extent);
-        println!("{:.0} s", self.seconds);
+        println!("{:.0} s, without what was built or installed", self.seconds);
     }
 
     fn json(&self) -> Value {
