@@ -5,7 +5,6 @@
 //! a list beside it, a `texture` may name one by its `texture_index`. Here the later forms become those of 1.0, before
 //! anything is bound: both spellings are one thing from then on.
 
-use crate::bind::CONSTANT;
 use crate::codes;
 use crate::element::Element;
 use crate::field::Block;
@@ -58,6 +57,10 @@ impl StandIn {
 
 /// Name of the elements in the list of a material's textures, and of those that refer to them.
 pub(crate) const TEXTURE: &str = "texture";
+/// Name of what such an element refers by, counted from 0.
+const INDEX: &str = "texture_index";
+/// Name of the elements that hold programs, which are not run.
+const SHADER: &str = "shader";
 
 /// Turns later forms of parameters among the children of an element into those of 1.0.
 pub(crate) fn settle(children: Vec<Element>, block: &'static Block, sink: &mut Sink) -> Vec<Element> {
@@ -102,12 +105,9 @@ struct Settling<'a> {
 
 impl Settling<'_> {
     fn parameter(&self, mut child: Element, parameter: &Parameter, sink: &mut Sink) -> Option<Element> {
-        if let Some(i) = child.children.iter().position(|c| &*c.name == TEXTURE) {
-            let texture = child.children.swap_remove(i);
-            for other in child.children.iter().filter(|c| &*c.name == CONSTANT) {
-                let message = format!("<{CONSTANT}> in <{}> has no effect beside <{TEXTURE}>", child.name);
-                sink.push(Diagnostic::warning(codes::DUPLICATE_ELEMENT, other.span, message));
-            }
+        if let Some(i) = child.children.iter().rposition(|c| &*c.name == TEXTURE) {
+            let texture = child.children.remove(i);
+            report_beside(&child, TEXTURE, sink);
             if parameter.texture.is_empty() {
                 return stand_in(&child, &texture, parameter, sink);
             }
@@ -115,8 +115,10 @@ impl Settling<'_> {
             texture.name = parameter.texture.into();
             return Some(texture);
         }
-        if let Some(shader) = child.children.iter().find(|c| &*c.name == "shader") {
-            return stand_in(&child, shader, parameter, sink);
+        if let Some(i) = child.children.iter().rposition(|c| &*c.name == SHADER) {
+            let shader = child.children.remove(i);
+            report_beside(&child, SHADER, sink);
+            return stand_in(&child, &shader, parameter, sink);
         }
         if parameter.constant.is_empty() {
             return None;
@@ -126,8 +128,12 @@ impl Settling<'_> {
     }
 
     /// The texture itself: that of the list where it names one by its number.
-    fn meant(&self, texture: Element, sink: &mut Sink) -> Option<Element> {
-        let Some(index) = texture.child("texture_index") else { return Some(texture) };
+    fn meant(&self, mut texture: Element, sink: &mut Sink) -> Option<Element> {
+        let Some(i) = texture.children.iter().rposition(|c| &*c.name == INDEX) else {
+            return Some(texture);
+        };
+        let index = texture.children.remove(i);
+        report_beside(&texture, INDEX, sink);
         let number = index.text.value.trim().parse::<usize>().ok();
         let Some(listed) = number.and_then(|i| self.list.get(i)) else {
             let there_are = match self.list.len() {
@@ -147,6 +153,19 @@ impl Settling<'_> {
             return None;
         };
         Some(Element { span: texture.span, ..listed.clone() })
+    }
+}
+
+/// Tells of all that is left in an element beside a child that counts alone.
+fn report_beside(element: &Element, counts: &str, sink: &mut Sink) {
+    report::stray_text(element, sink);
+    for other in &element.children {
+        if *other.name == *counts {
+            report::duplicate(other, &element.name, sink);
+            continue;
+        }
+        let message = format!("<{}> in <{}> has no effect beside <{counts}>", other.name, element.name);
+        sink.push(Diagnostic::warning(codes::DUPLICATE_ELEMENT, other.span, message));
     }
 }
 

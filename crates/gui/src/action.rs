@@ -92,7 +92,12 @@ impl Action {
 
     /// Whether the film that was rendered last is not there any more then.
     pub fn leaves_film(&self) -> bool {
-        self.leaves_scene() || matches!(self, Self::Command(Command::SetRegion(..)))
+        match self {
+            // It is asked for before anything is written.
+            Self::SaveElements(then) => then.leaves_film(),
+            Self::Command(Command::SetRegion(..)) => true,
+            _ => self.leaves_scene(),
+        }
     }
 }
 

@@ -258,7 +258,6 @@ impl App {
             self.asked(Ask::Compare, path.to_path_buf(), context);
         } else if has_ending(path, &["igi"]) {
             self.send(Command::OpenFilm(path.to_path_buf()));
-            self.state.recent.add(path);
         } else if let Some(path) = path.to_str() {
             self.load(self.state.request(path, starts));
         } else {

@@ -77,7 +77,11 @@ impl DiskResolver {
         let has_drive = path.as_bytes().get(1) == Some(&b':');
         if has_drive || path.starts_with('/') {
             let name = path.rsplit('/').next().unwrap_or_default().to_owned();
-            return [PathBuf::from(path)].into_iter().chain(beside.iter().map(|d| d.join(&name))).collect();
+            let shipped =
+                shipped_part(&path).map(|part| self.resource_directories.iter().map(move |d| d.join(&part)));
+            let shipped = shipped.into_iter().flatten();
+            let beside = beside.iter().map(|d| d.join(&name));
+            return [PathBuf::from(&path)].into_iter().chain(beside).chain(shipped).collect();
         }
         beside.iter().chain(&self.resource_directories).map(|d| d.join(&path)).collect()
     }
@@ -101,6 +105,15 @@ impl DiskResolver {
         self.files.lock().unwrap_or_else(PoisonError::into_inner).push(path.to_path_buf());
         Ok(Resolved { path: shown, bytes: bytes.into() })
     }
+}
+
+/// The part of a path on another machine that leads to a file which comes with the program there.
+fn shipped_part(path: &str) -> Option<String> {
+    const FOLDERS: [&str; 3] = ["data", "media", "nkdata"];
+    let parts: Vec<&str> = path.split('/').collect();
+    let is_shipped = |part: &&str| FOLDERS.iter().any(|folder| part.eq_ignore_ascii_case(folder));
+    let at = parts.iter().rposition(is_shipped)?;
+    Some(parts.get(at..)?.join("/"))
 }
 
 /// A file to be read, and its length, as long as that is no more than is ever read of one.
@@ -239,6 +252,7 @@ mod tests {
         assert_eq!(text("maps/wood.jpg").unwrap(), b"wood");
         assert_eq!(text("N:/work\\old/beside.obj").unwrap(), b"mesh");
         assert_eq!(text("/nowhere/Beside.OBJ").unwrap(), b"mesh");
+        assert_eq!(text("C:\\Program Files\\Renderer\\NKdata\\Au.NK").unwrap(), b"gold");
         assert_eq!(text("nkdata/Au.nk").unwrap(), b"gold");
         assert_eq!(text("absent\\..\\beside.obj").unwrap(), b"mesh");
         assert!(matches!(text("missing.png"), Err(ResolveError::NotFound { looked }) if looked.len() == 2));

@@ -23,6 +23,7 @@ pub use load::{LoadOptions, Loaded, LoadedDevelopment, Override, load, load_deve
 pub use needs::{LoadedNeeds, Need, load_needs};
 pub use scene::{
     DIFFRACTION_OF_RAYS, Development, FOREGROUND_ALPHA, FilmSettings, Identity, LAYER_SETTING,
-    MetropolisSettings, Names, OutputSettings, Scene, SceneStats, TransportSettings,
+    MetropolisSettings, Names, OutputSettings, RENDER_REGION, Scene, SceneStats, TransportSettings,
+    region_of_words,
 };
 pub use settings::{Listed, Origin, Settings};

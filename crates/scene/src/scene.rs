@@ -76,11 +76,19 @@ pub const FOREGROUND_ALPHA: &str = "render_foreground_alpha";
 pub const LAYER_SETTING: &str = "layer_setting";
 
 /// The name of the setting of an [`Identity`] that tells the part of the picture that is rendered.
-pub(crate) const RENDER_REGION: &str = "render_region";
+pub const RENDER_REGION: &str = "render_region";
 
 /// The value of that setting.
 pub(crate) fn region_in_words(region: Option<[[u32; 2]; 2]>) -> String {
     region.map_or_else(|| "the whole".to_owned(), |[x, y]| format!("{x:?} {y:?}"))
+}
+
+/// The same from such a value, which a film has; `None` for one that is no such.
+pub fn region_of_words(value: &str) -> Option<Option<[[u32; 2]; 2]>> {
+    let mut numbers = value.split(|c: char| !c.is_ascii_digit()).filter_map(|number| number.parse().ok());
+    let [x1, x2, y1, y2] = std::array::from_fn(|_| numbers.next());
+    let region = x1.zip(x2).zip(y1.zip(y2)).map(|((x1, x2), (y1, y2))| [[x1, x2], [y1, y2]]);
+    (region_in_words(region) == value).then_some(region)
 }
 
 /// What a film must have been rendered from to be of the same picture.

@@ -32,7 +32,9 @@ pub fn bradford_to_d65(from: [f64; 2]) -> Option<Mat3<f64>> {
         target.z / source.z,
     ]);
     let adapted = cones.inverse()? * gains * cones;
-    adapted.rows.iter().all(|row| row.is_finite()).then_some(adapted)
+    // What a cone would answer by less than nothing is no light.
+    let is_light = source.x > 0.0 && source.y > 0.0 && source.z > 0.0;
+    (is_light && adapted.rows.iter().all(|row| row.is_finite())).then_some(adapted)
 }
 
 /// How far apart chromaticities may be that are the same: the rounding of those that are published.

@@ -111,6 +111,7 @@ fn load(request: Request, stop: &Stop) -> Outcome {
     match load_scene(&request.path, &request.arguments, Some(stop)) {
         Ok((loaded, read)) => {
             let seconds = start.elapsed().as_secs_f64();
+            let is_loaded = loaded.scene.is_some();
             let line = Line { weight: Weight::Info, text: words::loaded(&request.path, seconds) };
             Outcome {
                 request,
@@ -119,7 +120,7 @@ fn load(request: Request, stop: &Stop) -> Outcome {
                 film,
                 findings: findings(&loaded.sink, &loaded.sources),
                 sources: Arc::new(loaded.sources),
-                lines: vec![line],
+                lines: if is_loaded { vec![line] } else { vec![] },
             }
         }
         Err(message) => nothing(request, message),

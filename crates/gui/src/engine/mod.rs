@@ -136,6 +136,8 @@ pub enum Update {
     Scene(Box<LoadedFacts>, Option<Work>),
     /// What was found in the files of a scene, whether or not it can be rendered.
     Findings(Vec<Finding>, Arc<SourceMap>),
+    /// A film was opened.
+    Opened(PathBuf),
     /// A film is looked at that is of no scene.
     Film(Box<PictureSettings>, PathBuf),
     /// How far the render is, and the memory that the program holds, in bytes.

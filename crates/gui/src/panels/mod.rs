@@ -77,6 +77,15 @@ fn named<R>(ui: &mut Ui, add: impl FnOnce(&mut Ui) -> R) -> R {
     name.inner
 }
 
+/// An entry of a list of choices, which is closed by choosing it, with a key too.
+fn choice<T: PartialEq>(ui: &mut Ui, chosen: &mut T, value: T, name: &str) -> Response {
+    let entry = ui.selectable_value(chosen, value, name);
+    if entry.clicked() {
+        ui.close();
+    }
+    entry
+}
+
 /// The head of a group of controls.
 fn head(ui: &mut Ui, text: &str) {
     ui.add_space(6.0);

@@ -13,8 +13,9 @@ use indigo_scene::schema::settings::MOST_THREADS;
 /// See the module.
 pub fn network(ui: &mut Ui, state: &mut State) {
     head(ui, words::NETWORK);
-    let can_change = !state.is_under_way();
-    if !can_change {
+    // What is rendered rests while something is loaded.
+    let can_change = !state.is_under_way() && state.phase != Phase::Loading;
+    if state.is_under_way() {
         ui.weak(words::PART_IS_FIXED);
     }
     ui.add_enabled_ui(can_change, |ui| {

@@ -89,9 +89,9 @@ fn lost_samples(context: &Context, state: &mut State, action: Box<Action>, is_ne
         state.act(*action);
         return None;
     }
-    let spp = state.progress.map_or(0.0, |progress| progress.samples_per_pixel);
+    let lost = state.samples_in_no_file();
     let answers = [words::SAMPLES_SAVE, words::SAMPLES_DISCARD, words::CANCEL];
-    match choose(context, words::SAMPLES_HEAD, &words::lost_samples(spp), answers, is_new) {
+    match choose(context, words::SAMPLES_HEAD, &words::lost_samples(lost), answers, is_new) {
         None => return Some(Question::LostSamples(action)),
         Some(0) => state.save_film_before(action),
         Some(1) => {

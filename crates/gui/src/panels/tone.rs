@@ -1,6 +1,6 @@
 //! How the picture is developed.
 
-use super::{head, lights, row};
+use super::{choice, head, lights, row};
 use crate::action::Action;
 use crate::controls::{Controls, Mapper};
 use crate::engine::Histogram;
@@ -53,10 +53,11 @@ fn mapping(ui: &mut Ui, state: &mut State, controls: &mut Controls) {
     row(ui, words::MAPPER, |ui| {
         ComboBox::from_id_salt("mapper")
             .width(theme::CONTROL)
+            .truncate()
             .selected_text(words::mapper(controls.mapper))
             .show_ui(ui, |ui| {
                 for mapper in Mapper::ALL {
-                    ui.selectable_value(&mut controls.mapper, mapper, words::mapper(mapper));
+                    choice(ui, &mut controls.mapper, mapper, words::mapper(mapper));
                 }
             })
             .response
@@ -97,10 +98,12 @@ fn response(ui: &mut Ui, state: &mut State, controls: &mut Controls) {
     row(ui, words::RESPONSE, |ui| {
         ComboBox::from_id_salt("response")
             .width(theme::CONTROL)
+            .truncate()
             .selected_text(words::response(controls.response.name()))
             .show_ui(ui, |ui| {
                 let display = std::sync::Arc::new(Curves::display());
                 if ui.selectable_label(controls.response.name().is_empty(), words::response("")).clicked() {
+                    ui.close();
                     controls.response = display;
                     state.awaited_response = None;
                 }
@@ -112,6 +115,7 @@ fn response(ui: &mut Ui, state: &mut State, controls: &mut Controls) {
                         entry.scroll_to_me(Some(Align::Center));
                     }
                     if entry.clicked() {
+                        ui.close();
                         state.awaited_response = Some(name.clone());
                         chosen = Some(Action::ReadResponse(name.clone(), path.clone()));
                     }
@@ -153,13 +157,13 @@ fn white(ui: &mut Ui, state: &mut State, controls: &mut Controls) {
     row(ui, words::WHITE, |ui| {
         ComboBox::from_id_salt("white")
             .width(theme::CONTROL)
+            .truncate()
             .selected_text(controls.white_name())
             .show_ui(ui, |ui| {
                 let is_new = has_just_opened(ui);
                 for illuminant in indigo_spectrum::illuminant::ALL {
                     let is_chosen = controls.white == illuminant.white_xy;
-                    let entry =
-                        ui.selectable_value(&mut controls.white, illuminant.white_xy, illuminant.name);
+                    let entry = choice(ui, &mut controls.white, illuminant.white_xy, illuminant.name);
                     if is_chosen && is_new {
                         entry.scroll_to_me(Some(Align::Center));
                     }

@@ -1,6 +1,6 @@
 //! How the scene is rendered.
 
-use super::{head, named, row};
+use super::{choice, head, named, row};
 use crate::engine::Command;
 use crate::state::{State, Tool};
 use crate::work::{Mode, Sampling, Work};
@@ -78,11 +78,12 @@ fn transport(ui: &mut Ui, mode: &mut Mode) {
     row(ui, words::TECHNIQUE, |ui| {
         ComboBox::from_id_salt("technique")
             .width(theme::CONTROL)
+            .truncate()
             .selected_text(words::technique(mode.bidirectional))
             .show_ui(ui, |ui| {
                 for bidirectional in [false, true] {
                     let name = words::technique(bidirectional);
-                    ui.selectable_value(&mut mode.bidirectional, bidirectional, name);
+                    choice(ui, &mut mode.bidirectional, bidirectional, name);
                 }
             })
             .response
@@ -90,10 +91,11 @@ fn transport(ui: &mut Ui, mode: &mut Mode) {
     row(ui, words::SAMPLING, |ui| {
         ComboBox::from_id_salt("sampling")
             .width(theme::CONTROL)
+            .truncate()
             .selected_text(words::sampling(mode.sampling))
             .show_ui(ui, |ui| {
                 for sampling in Sampling::ALL {
-                    ui.selectable_value(&mut mode.sampling, sampling, words::sampling(sampling));
+                    choice(ui, &mut mode.sampling, sampling, words::sampling(sampling));
                 }
             })
             .response

@@ -24,6 +24,7 @@ impl State {
                 self.findings_of.clone_from(&self.wanted);
                 self.reading = None;
             }
+            Update::Opened(path) => self.recent.add(&path),
             Update::Film(settings, path) => {
                 self.set_file_aside();
                 if self.path.as_deref().is_some_and(|open| Path::new(open) != path) {

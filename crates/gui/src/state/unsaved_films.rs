@@ -29,7 +29,18 @@ impl State {
     /// Whether that would cost more than a minute of rendering.
     pub fn would_lose_work(&self) -> bool {
         let rendered = self.progress.map_or(Duration::ZERO, |progress| progress.elapsed);
-        self.would_lose_samples() && rendered >= A_MINUTE
+        self.would_lose_samples() && rendered.mul_f64(self.part_in_no_file()) >= A_MINUTE
+    }
+
+    /// Samples per pixel that are in no file.
+    pub fn samples_in_no_file(&self) -> f64 {
+        self.progress.map_or(0.0, |progress| progress.samples_per_pixel) * self.part_in_no_file()
+    }
+
+    /// The part of the film that is in no file, from 0 to 1.
+    fn part_in_no_file(&self) -> f64 {
+        let samples = self.samples().max(1);
+        samples.saturating_sub(self.kept_samples) as f64 / samples as f64
     }
 
     /// Asks where the film is to be saved, and goes on with what is to be done once it is.

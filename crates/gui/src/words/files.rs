@@ -22,7 +22,7 @@ pub fn not_rendered(path: &str) -> String {
 /// What another part of the picture costs.
 pub fn lost_samples(samples_per_pixel: f64) -> String {
     format!(
-        "The film, of {samples_per_pixel:.1} samples per pixel, is in no file and would be gone; a saved picture cannot be continued, nor developed otherwise. Saved as IGI it can."
+        "{samples_per_pixel:.1} samples per pixel of the film are in no file and would be gone; a saved picture cannot be continued, nor developed otherwise. Saved as IGI it can."
     )
 }
 

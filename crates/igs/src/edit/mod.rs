@@ -169,7 +169,8 @@ impl Edits {
         Ok(())
     }
 
-    /// Puts a text that is one whole element in the place of one, indented as that was.
+    /// Puts a text that is one whole element in the place of one, indented as that was, and the comments that were in it
+    /// behind it.
     ///
     /// # Errors
     /// [`EditError::BadText`]

@@ -10,6 +10,28 @@ use indigo_diag::SourceId;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+/// The comments in a text of elements.
+fn comments(text: &[u8]) -> Vec<&[u8]> {
+    const BRACKETS: [(&[u8], &[u8], bool); 2] = [(b"<!--", b"-->", true), (b"<![CDATA[", b"]]>", false)];
+    let mut found = vec![];
+    let mut at = 0;
+    while let Some(rest) = text.get(at..).filter(|rest| !rest.is_empty()) {
+        let opened = BRACKETS.iter().find(|(open, ..)| rest.starts_with(open));
+        let Some((open, close, is_comment)) = opened else {
+            at += 1;
+            continue;
+        };
+        let inside = rest.get(open.len()..).unwrap_or_default();
+        let Some(end) = inside.windows(close.len()).position(|part| part == *close) else { break };
+        let length = open.len() + end + close.len();
+        if *is_comment {
+            found.extend(rest.get(..length));
+        }
+        at += length;
+    }
+    found
+}
+
 /// Bytes that stand in the place of others.
 struct Splice {
     at: Range<usize>,
@@ -82,7 +104,23 @@ impl File<'_> {
             return Err(EditError::NotInLatin1 { character });
         }
         let layout = self.layout(indentation(self.bytes, extent.tag.start).0);
-        self.splice(extent.tag.start..extent.end, &reindent(text, &layout.base));
+        let whole = extent.tag.start..extent.end;
+        let old = self.bytes.get(whole.clone()).unwrap_or_default();
+        let mut new = text.trim_end().to_owned();
+        for comment in comments(old) {
+            let comment: String = if self.found.latin1 {
+                comment.iter().copied().map(char::from).collect()
+            } else {
+                String::from_utf8_lossy(comment).into_owned()
+            };
+            // The text may have it already.
+            if !text.contains(&*comment) {
+                // Line ends are a part of the text that they stand in.
+                new.push_str(if extent.is_amid_text { "" } else { "\n" });
+                new.push_str(&comment);
+            }
+        }
+        self.splice(whole, &reindent(&new, &layout.base));
         Ok(())
     }
 

@@ -32,6 +32,13 @@ impl<'a> MaterialPacks<'a> {
         packs.get(path).map(|pack| (pack.clone(), path))
     }
 
+    /// A file that is in none of the packs, or the material in it.
+    fn outside(&self, path: &str, from: &str) -> Result<Resolved, ResolveError> {
+        let found = self.inner.read(path, from)?;
+        let is_packed = found.path.to_ascii_lowercase().ends_with(ENDING);
+        if is_packed { self.material(&found) } else { Ok(found) }
+    }
+
     /// The material in a pack.
     fn material(&self, found: &Resolved) -> Result<Resolved, ResolveError> {
         let unreadable = |reason: String| ResolveError::Unreadable { path: found.path.clone(), reason };
@@ -46,13 +53,9 @@ impl<'a> MaterialPacks<'a> {
 
 impl Resolver for MaterialPacks<'_> {
     fn read(&self, path: &str, from: &str) -> Result<Resolved, ResolveError> {
-        let Some((pack, pack_path)) = self.pack_of(from) else {
-            let found = self.inner.read(path, from)?;
-            let is_packed = found.path.to_ascii_lowercase().ends_with(ENDING);
-            return if is_packed { self.material(&found) } else { Ok(found) };
-        };
+        let Some((pack, pack_path)) = self.pack_of(from) else { return self.outside(path, from) };
         let last = path.rsplit(['/', '\\']).next().unwrap_or_default();
-        let Some(name) = pack.find(last) else { return self.inner.read(path, pack_path) };
+        let Some(name) = pack.find(last) else { return self.outside(path, pack_path) };
         let shown = format!("{pack_path}/{name}");
         match pack.read(name) {
             Ok(bytes) => Ok(Resolved { path: shown, bytes: bytes.into() }),

@@ -81,6 +81,11 @@ fn an_element_is_replaced_with_the_indentation_of_its_place() {
         changed,
         "<scene>\r\n\t<n>\r\n\t  <!-- new -->\r\n\t  <m>1</m>\r\n\t</n> <!-- why -->\r\n</scene>"
     );
+    // Comments that were in it stay, each once; what looks like one is none.
+    let scene = "<scene>\n  <a>\n    <!-- one -->\n    <b>1</b> <!-- two\n lines -->\n    <c><![CDATA[<!-- no -->]]></c>\n  </a>\n</scene>";
+    let changed =
+        edited(scene, |root, edits| edits.replace(&root.children[0], "<n><!-- one --></n>").unwrap());
+    assert_eq!(changed, "<scene>\n  <n><!-- one --></n>\n  <!-- two\n lines -->\n</scene>");
     // The text of an element as it stands is no change.
     let same = edited(scene, |root, edits| {
         let sources = Read::text(scene).sources;

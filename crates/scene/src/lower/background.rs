@@ -107,13 +107,17 @@ fn even_light(kind: &Node, weight: f64, is_coloured: bool, context: &mut Context
             let message = "the surroundings have the colours of their picture: those of <base_emission> and of the layer are left out";
             context.sink.push(Diagnostic::warning(codes::STANDS_IN, kind.span, message));
         }
-        return picture(texture, gain.luminance() / Spectrum::uniform(1.0).luminance() * weight, context);
+        let gain = gain.luminance() / Spectrum::uniform(1.0).luminance() * weight;
+        read::refuse_excess(&Spectrum::uniform(gain), kind.span, context.sink);
+        return picture(texture, gain, context);
     }
     let radiance = emission::radiance(base, field("emission"), context.sink);
     if radiance.is_none() {
         warn_of_parts(kind, context);
     }
-    radiance.map(|radiance| Background(radiance.scaled(weight)).into())
+    let radiance = radiance?.scaled(weight);
+    read::refuse_excess(&radiance, kind.span, context.sink);
+    Some(Background(radiance).into())
 }
 
 /// Tells of a kind that is made of other materials, whose light is not looked for.

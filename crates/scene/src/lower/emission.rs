@@ -66,11 +66,16 @@ impl Emission<'_> {
 /// `emission` is light as it is alone: white `rgb` is white under D65. A base with a spectrum of its own is tinted by it.
 pub(super) fn radiance(base: Option<&Node>, colour: Option<&Node>, sink: &mut Sink) -> Option<Spectrum> {
     let base = base.map(|base| read::emission(base, sink));
+    let product = |radiance: Spectrum, colour: &Node, sink: &mut Sink| {
+        read::refuse_excess(&radiance, colour.span, sink);
+        Some(radiance)
+    };
     match (base, colour) {
         (Some(Spectrum::Uniform(value)), Some(colour)) => {
-            Some(read::emission(colour, sink).times(&Spectrum::Uniform(value)))
+            let radiance = read::emission(colour, sink).times(&Spectrum::Uniform(value));
+            product(radiance, colour, sink)
         }
-        (Some(base), Some(colour)) => Some(base.times(&read::factor(colour, sink))),
+        (Some(base), Some(colour)) => product(base.times(&read::factor(colour, sink)), colour, sink),
         (Some(base), None) => Some(base),
         (None, Some(colour)) => Some(read::emission(colour, sink)),
         (None, None) => None,

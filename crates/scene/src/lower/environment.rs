@@ -80,6 +80,7 @@ pub(super) fn skylight(
     }
     if is_outside {
         let disc = space::sun(Sun::solid_angle(sun::RADIUS)).scaled(gain);
+        read::refuse_excess(&disc.radiance, node.span, context.sink);
         sun_layer.keep_colour_out_of(node, context.sink);
         return vec![(Sun::new(towards, sun::RADIUS, disc).into(), sun_layer.group)];
     }
@@ -106,7 +107,9 @@ pub(super) fn skylight(
     for layer in [&sky_layer, &sun_layer] {
         layer.keep_colour_out_of(node, context.sink);
     }
-    let (sky, sun) = (Sky::new(towards, model), Sun::new(towards, sun::RADIUS, disc.scaled(gain)));
+    let disc = disc.scaled(gain);
+    read::refuse_excess(&disc.radiance, node.span, context.sink);
+    let (sky, sun) = (Sky::new(towards, model), Sun::new(towards, sun::RADIUS, disc));
     vec![(sky.into(), sky_layer.group), (sun.into(), sun_layer.group)]
 }
 

@@ -92,6 +92,33 @@ fn versions_are_named_of_what_is_not_rendered() {
     assert_eq!(dump(&scene_with(&specular(absorbs), &[warning])), dump(&scene_with(&specular(""), &[])));
     let sum = with("material", "<sum><mat><mat_name>n</mat_name><weight>1</weight></mat></sum>");
     scene_with(&sum, &["W0320 <sum> is of a later format version (4.0) and not rendered: n stands in"]);
+    for (more, told) in [
+        (
+            "<texture><path>a.bmp</path><exponent>1</exponent></texture>",
+            "W0103 <texture> is given more than once in <albedo>",
+        ),
+        ("<constant>0.5</constant>", "W0103 <constant> in <albedo> has no effect beside <texture>"),
+        ("<shader>x</shader>", "W0103 <shader> in <albedo> has no effect beside <texture>"),
+        ("<foo/>", "W0103 <foo> in <albedo> has no effect beside <texture>"),
+        ("words", "W0106 text inside <albedo> is ignored"),
+    ] {
+        let albedo = |more: &str| {
+            let map = "<texture><path>a.bmp</path><exponent>1</exponent><b>0.5</b></texture>";
+            with("material", &format!("<diffuse><albedo>{more}{map}</albedo></diffuse>"))
+        };
+        assert_eq!(dump(&scene_with(&albedo(more), &[told])), dump(&scene_with(&albedo(""), &[])));
+    }
+    for (more, told) in [
+        ("<b>0.001</b>", "W0103 <b> in <texture> has no effect beside <texture_index>"),
+        ("<texture_index>7</texture_index>", "W0103 <texture_index> is given more than once in <texture>"),
+    ] {
+        let albedo = |more: &str| {
+            let map = "<texture><path>a.bmp</path><exponent>1</exponent><b>0.5</b></texture>";
+            let named = format!("<texture>{more}<texture_index>0</texture_index></texture>");
+            with("material", &format!("<diffuse>{map}<albedo>{named}</albedo></diffuse>"))
+        };
+        assert_eq!(dump(&scene_with(&albedo(more), &[told])), dump(&scene_with(&albedo(""), &[])));
+    }
     let empty = findings(&loaded(&with("material", "<sum></sum>")));
     assert!(empty[0].1.starts_with("E0201 <sum> has none of <mat>"), "{empty:?}");
     let sunsky = with("material", "<sunsky><sundir>0 0.6 1</sundir></sunsky>");

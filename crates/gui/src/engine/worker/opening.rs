@@ -107,8 +107,9 @@ impl Worker {
         self.region = None;
         self.open = Some(Open { scene, read, request, region_of_files });
         self.outlet.send(Update::Scene(Box::new(facts), Some(work)));
-        if let Some(film) = &self.film {
-            self.tell_of_file(film);
+        if let Some(film) = self.film.clone() {
+            self.take_region_of(&film);
+            self.tell_of_file(&film);
         }
         if starts {
             // The picture before it is looked at until there is another.
@@ -128,7 +129,9 @@ impl Worker {
             Err(error) => return self.say(Weight::Error, error.to_string()),
         };
         self.stop(true);
+        self.take_region_of(&film);
         self.desk.set_film(Arc::new(film.film.clone()));
+        self.outlet.send(Update::Opened(path.to_path_buf()));
         let fits = self.open.as_ref().map(|open| Session::check(&open.scene, &film).map(|_| ()));
         match fits {
             Some(Ok(())) => {

@@ -6,6 +6,9 @@ use crate::engine::{LoadedFacts, Phase, Update};
 use crate::log::Weight;
 use crate::words;
 use crate::work::Work;
+use indigo_film::SavedFilm;
+use indigo_render::Session;
+use indigo_scene::{RENDER_REGION, region_of_words};
 use std::sync::Arc;
 
 /// Another part of the picture to be rendered, or all of it.
@@ -50,11 +53,7 @@ impl Worker {
         if let Err(error) = scene.set_region(region) {
             return self.say(Weight::Error, error.to_string());
         }
-        let facts = LoadedFacts::of(scene);
-        if let Some(picture) = &mut self.picture {
-            picture.region = facts.picture.region;
-        }
-        self.outlet.send(Update::Scene(Box::new(facts), None));
+        self.tell_of_region();
         match work {
             Some(work) => self.start(&work),
             None => {
@@ -62,5 +61,29 @@ impl Worker {
                 self.outlet.send(Update::Phase(Phase::Ready));
             }
         }
+    }
+
+    /// Renders the part of the picture that a film is of, where nothing else keeps it from being gone on with.
+    pub(super) fn take_region_of(&mut self, film: &SavedFilm) {
+        let said = film.record.as_ref().and_then(|record| record.setting(RENDER_REGION));
+        let (Some(open), Some(part)) = (&mut self.open, said.and_then(region_of_words)) else { return };
+        let before = open.scene.film.region;
+        let corners = |[[x1, x2], [y1, y2]]: [[u32; 2]; 2]| [[x1, y1], [x2, y2]];
+        let Some(scene) = Arc::get_mut(&mut open.scene).filter(|_| part != before) else { return };
+        if scene.set_region(part.map(corners)).is_ok() && Session::check(scene, film).is_ok() {
+            self.tell_of_region();
+        } else if let Err(error) = scene.set_region(before.map(corners)) {
+            self.say(Weight::Error, error.to_string());
+        }
+    }
+
+    /// Another part of the picture is rendered from now on.
+    fn tell_of_region(&mut self) {
+        let Some(open) = &self.open else { return };
+        let facts = LoadedFacts::of(&open.scene);
+        if let Some(picture) = &mut self.picture {
+            picture.region = facts.picture.region;
+        }
+        self.outlet.send(Update::Scene(Box::new(facts), None));
     }
 }

@@ -28,6 +28,8 @@ const FIRST_PICTURE: Duration = Duration::from_millis(250);
 const WHILE_IN_PARTS: Duration = Duration::from_secs(1);
 /// Renewing the picture may take this part of the time at most, so that rendering takes no more than some per cent longer.
 const PART_FOR_PICTURES: u32 = 40;
+/// The same as long as the picture that is shown has pixels without a sample: nobody sees much of it.
+const PART_FOR_PARTS: u32 = 4;
 /// No picture is waited for longer than so many times the setting `display_period`.
 const LONGEST_WAIT: u32 = 3;
 
@@ -43,8 +45,9 @@ pub struct Run {
     news: Instant,
     shown: Instant,
     pictures: u32,
-    /// As was told last.
+    /// As was told last, and of the picture that is shown.
     samples_per_pixel: f64,
+    shown_per_pixel: f64,
     /// What copying the film took.
     copying: Duration,
 }
@@ -115,6 +118,7 @@ impl Run {
             shown: now,
             pictures: 0,
             samples_per_pixel: 0.0,
+            shown_per_pixel: 0.0,
             copying: Duration::ZERO,
         })
     }
@@ -220,11 +224,13 @@ impl Run {
     /// How long the picture stays, where developing the last one took some time.
     fn between_pictures(&self, developing: Duration) -> Duration {
         let growing = FIRST_PICTURE.saturating_mul(1 << (2 * self.pictures).min(16));
-        let growing = if self.samples_per_pixel < 1.0 { growing.min(WHILE_IN_PARTS) } else { growing };
+        let is_in_parts = self.shown_per_pixel < 1.0;
+        let growing = if is_in_parts { growing.min(WHILE_IN_PARTS) } else { growing };
         // Developing takes long on a machine that is busy with other things, too: pictures come all the same.
         let longest = self.display_period.saturating_mul(LONGEST_WAIT);
         let cost = self.copying + developing;
-        let sparing = cost.saturating_mul(PART_FOR_PICTURES).min(longest);
+        let part = if is_in_parts { PART_FOR_PARTS } else { PART_FOR_PICTURES };
+        let sparing = cost.saturating_mul(part).min(longest);
         self.display_period.min(growing).max(sparing)
     }
 
@@ -240,6 +246,7 @@ impl Run {
         self.copying = start.elapsed();
         self.shown = Instant::now();
         self.pictures += 1;
+        self.shown_per_pixel = self.samples_per_pixel;
         has_samples
     }
 

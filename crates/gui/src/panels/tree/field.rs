@@ -170,8 +170,11 @@ fn choice(ui: &mut Ui, field: &Field, choices: &[&str], text: &mut String, width
         .selected_text(&**text)
         .show_ui(ui, |ui| {
             for word in choices {
-                if ui.selectable_label(now == chosen(word), *word).clicked() && now != chosen(word) {
-                    (*word).clone_into(text);
+                if ui.selectable_label(now == chosen(word), *word).clicked() {
+                    ui.close();
+                    if now != chosen(word) {
+                        (*word).clone_into(text);
+                    }
                 }
             }
         })
