@@ -275,3 +275,18 @@ impl Scene {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn regions_are_read_again() {
+        for region in [None, Some([[138, 231], [121, 192]]), Some([[0, 1], [0, u32::MAX]])] {
+            assert_eq!(region_of_words(&region_in_words(region)), Some(region));
+        }
+        for other in ["", "1 2 3 4", "[1, 2] [3, 4] [5]", "[1, 2] [3, 99999999999]"] {
+            assert_eq!(region_of_words(other), None, "{other}");
+        }
+    }
+}

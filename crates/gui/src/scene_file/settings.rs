@@ -167,7 +167,7 @@ mod tests {
     use indigo_imaging::{Bloom, Exposure, ToneMapping, WhiteBalance};
     use std::path::PathBuf;
 
-    const SCENE: &str = "<scene>\n  <!-- mine -->\n  <tonemapping>\n    <linear><scale>2.0</scale></linear>\n  \
+    const SCENE: &str = "<scene>\n  <!-- mine -->\n  <tonemapping>\n    <linear><scale>2.0</scale> <!-- two -->\n</linear>\n  \
                          </tonemapping>\n  <camera>\n    <pos>0 0 0</pos> <!-- here -->\n  </camera>\n</scene>\n";
 
     /// A scene as it was loaded: what SCENE says, white as E.
@@ -202,7 +202,9 @@ mod tests {
         );
         (other.mapper, other.ev, other.bloom) = (Mapper::Camera, 1.5, true);
         save(&other);
-        for part in ["<ev_adjust>1.5</ev_adjust>", "<!-- mine -->", "<!-- here -->", "<bloom>"] {
+        for part in
+            ["<ev_adjust>1.5</ev_adjust>", "<!-- mine -->", "<!-- two -->", "<!-- here -->", "<bloom>"]
+        {
             assert!(text().contains(part), "{part}: {}", text());
         }
         assert!(!text().contains("<linear>") && !text().contains("diffraction"), "{}", text());

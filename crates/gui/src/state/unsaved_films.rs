@@ -149,8 +149,11 @@ mod tests {
 
     #[test]
     fn what_took_long_is_not_given_up_without_a_question() {
-        let leaving =
-            || [Action::Open("b.igs".into()), Action::Restart, Action::RunQueue, Action::TryToClose];
+        let leaving = || {
+            // Elements are not written before that is known.
+            let saved = Action::SaveElements(Action::Restart.into());
+            [Action::Open("b.igs".into()), Action::Restart, Action::RunQueue, Action::TryToClose, saved]
+        };
         for (seconds, is_asked) in [(59, false), (61, true)] {
             let mut state = state();
             state.take(Update::Phase(Phase::Halted(HaltReason::Stopped)));
@@ -162,6 +165,11 @@ mod tests {
                 assert_eq!(matches!(asked(&mut state), Some(Question::LostSamples(_))), is_asked);
             }
             assert_eq!(state.question_before_closing().is_some(), is_asked);
+            assert!(state.allowed(Action::SaveElements(Action::ReadElements.into())).is_some());
+            // Of that what is in a file takes no time again.
+            state.take(Update::Kept(500));
+            assert!((state.samples_in_no_file() - 0.5).abs() < 1e-9);
+            assert!(leaving().into_iter().all(|action| state.allowed(action).is_some()));
         }
     }
 

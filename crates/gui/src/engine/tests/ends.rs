@@ -246,6 +246,45 @@ fn a_film_of_the_open_scene_tells_how_far_it_came() {
     assert_eq!(last, Some(kept));
 }
 
+/// With the part of the picture that it is of.
+#[test]
+fn a_film_of_a_region_is_gone_on_with() {
+    const REGION: [[u32; 2]; 2] = [[2, 3], [7, 8]];
+    let folder = Folder::new("part");
+    let engine = rendering(&folder);
+    let region = |engine: &Engine, what: &str| {
+        wait_for(engine, what, |update| match update {
+            Update::Scene(facts, _) => Some(facts.region),
+            _ => None,
+        })
+    };
+    engine.send(Command::SetRegion(Some(REGION), Work::endless()));
+    assert_eq!(region(&engine, "region"), Some(REGION));
+    wait_for(&engine, "samples", |update| match update {
+        Update::Progress(progress, _) => (progress.samples > 0).then_some(()),
+        _ => None,
+    });
+    engine.send(Command::Stop);
+    wait_for(&engine, "end", |update| matches!(update, Update::Done(_)).then_some(()));
+    let film = folder.path("part.igi");
+    engine.send(Command::Save(OneFile::Film, film.clone().into()));
+    wait_for(&engine, "film", |update| matches!(update, Update::Kept(_)).then_some(()));
+    engine.send(Command::SetRegion(None, Work::endless()));
+    assert_eq!(region(&engine, "whole"), None);
+    engine.send(Command::OpenFilm(film.into()));
+    let mut taken = None;
+    wait_for(&engine, "scene", |update| match update {
+        Update::Scene(facts, _) => {
+            taken = facts.region;
+            None
+        }
+        Update::Film(..) => panic!("it is of no scene"),
+        Update::Phase(phase) => (phase == Phase::Ready).then_some(()),
+        _ => None,
+    });
+    assert_eq!(taken, Some(REGION));
+}
+
 /// A queue does not wait for anybody, and the disk may have room again in the morning.
 #[test]
 fn a_film_that_cannot_be_saved_outlives_the_next_scene() {
