@@ -101,7 +101,7 @@ pub fn chromaticity([x, y]: [f64; 2]) -> String {
 
 /// How paths are built.
 pub fn technique(bidirectional: bool) -> &'static str {
-    if bidirectional { "Bidirectional path tracing" } else { "Path tracing" }
+    if bidirectional { "Bidirectional" } else { "Path tracing" }
 }
 
 /// Who chooses paths.
