@@ -34,5 +34,5 @@ pub use meaning::Meaning;
 pub use mesh::{EmbeddedMesh, MeshData};
 pub use node::{Node, Slot};
 pub use parameter::{Parameter, StandIn};
-pub use resolver::{ResolveError, Resolved, Resolver, hint_of_shipped};
+pub use resolver::{ResolveError, Resolved, Resolver, SHIPPED, hint_of_shipped};
 pub use value::Value;

@@ -52,8 +52,8 @@ impl ResolveError {
     }
 }
 
-/// Folders of files that come with the program.
-const SHIPPED: [&str; 2] = ["media", "nkdata"];
+/// Folders of files that come with the program, which every scene may name.
+pub const SHIPPED: [&str; 3] = ["data", "media", "nkdata"];
 
 /// A hint for a file that is not there: the one of its name that comes with the program, if there is one.
 pub fn hint_of_shipped(

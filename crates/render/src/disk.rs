@@ -1,7 +1,7 @@
 //! The disk: finding the files that scenes name, and keeping built trees.
 
 use crate::atomic::write_atomically;
-use indigo_decl::{ResolveError, Resolved, Resolver};
+use indigo_decl::{ResolveError, Resolved, Resolver, SHIPPED};
 use indigo_geom::TreeStore;
 use indigo_math::pages;
 use std::fs::File;
@@ -109,9 +109,8 @@ impl DiskResolver {
 
 /// The part of a path on another machine that leads to a file which comes with the program there.
 fn shipped_part(path: &str) -> Option<String> {
-    const FOLDERS: [&str; 3] = ["data", "media", "nkdata"];
     let parts: Vec<&str> = path.split('/').collect();
-    let is_shipped = |part: &&str| FOLDERS.iter().any(|folder| part.eq_ignore_ascii_case(folder));
+    let is_shipped = |part: &&str| SHIPPED.iter().any(|folder| part.eq_ignore_ascii_case(folder));
     let at = parts.iter().rposition(is_shipped)?;
     Some(parts.get(at..)?.join("/"))
 }

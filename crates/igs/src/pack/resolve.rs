@@ -1,11 +1,8 @@
 //! Rendering straight from a packed scene.
 
 use super::read::{Pack, PackError, PackLimits};
-use indigo_decl::{ResolveError, Resolved, Resolver};
+use indigo_decl::{ResolveError, Resolved, Resolver, SHIPPED};
 use std::sync::Arc;
-
-/// Folders of files that come with the program, which every scene may name.
-const RESOURCES: [&str; 3] = ["data", "media", "nkdata"];
 
 /// Finds files in a packed scene, and what the program brings with it elsewhere.
 ///
@@ -74,7 +71,7 @@ impl Resolver for PackResolver<'_> {
         let looked = candidates.into_iter().flatten().map(|name| format!("{}/{name}", self.path)).collect();
         let not_found = Err(ResolveError::NotFound { looked });
         let is_resource = |name: &String| {
-            RESOURCES.iter().any(|folder| name.strip_prefix(folder).is_some_and(|rest| rest.starts_with('/')))
+            SHIPPED.iter().any(|folder| name.strip_prefix(folder).is_some_and(|rest| rest.starts_with('/')))
         };
         match within("", &wanted).filter(is_resource) {
             Some(resource) => self.resources.read(&resource, self.path).or(not_found),

@@ -45,8 +45,7 @@ pub struct Run {
     news: Instant,
     shown: Instant,
     pictures: u32,
-    /// As was told last, and of the picture that is shown.
-    samples_per_pixel: f64,
+    /// Samples per pixel of the picture that is shown.
     shown_per_pixel: f64,
     /// What copying the film took.
     copying: Duration,
@@ -117,7 +116,6 @@ impl Run {
             news: now,
             shown: now,
             pictures: 0,
-            samples_per_pixel: 0.0,
             shown_per_pixel: 0.0,
             copying: Duration::ZERO,
         })
@@ -200,18 +198,16 @@ impl Run {
             self.tell(progress, outlet);
             return reason;
         }
-        self.samples_per_pixel = progress.samples_per_pixel;
         let is_first_rest = self.rests && !self.rest_shown && self.source.is_resting();
         let shows =
             is_first_rest || !self.rests && self.shown.elapsed() >= self.between_pictures(desk.last_cost());
         if shows {
             self.rest_shown = is_first_rest;
-            if self.show(desk, outlet) {
-                self.news = Instant::now();
-                outlet.tell_progress_with_picture(progress);
-            }
         }
-        if self.news.elapsed() >= BETWEEN_NEWS {
+        if shows && self.show(progress.samples_per_pixel, desk, outlet) {
+            outlet.tell_progress_with_picture(progress);
+            self.tell_of_slaves(outlet);
+        } else if is_first_rest || self.news.elapsed() >= BETWEEN_NEWS {
             self.tell(progress, outlet);
         }
         if is_first_rest {
@@ -235,7 +231,7 @@ impl Run {
     }
 
     /// Has the film developed; whether there is something to be seen.
-    fn show(&mut self, desk: &Desk, messages: &mut dyn Messages) -> bool {
+    fn show(&mut self, samples_per_pixel: f64, desk: &Desk, messages: &mut dyn Messages) -> bool {
         let start = Instant::now();
         let sums = self.source.sums(messages);
         // A black picture would be taken for what is rendered.
@@ -246,13 +242,18 @@ impl Run {
         self.copying = start.elapsed();
         self.shown = Instant::now();
         self.pictures += 1;
-        self.shown_per_pixel = self.samples_per_pixel;
+        self.shown_per_pixel = samples_per_pixel;
         has_samples
     }
 
     fn tell(&mut self, progress: Progress, outlet: &Outlet) {
-        self.news = Instant::now();
         outlet.tell_progress(progress);
+        self.tell_of_slaves(outlet);
+    }
+
+    /// The last of the news.
+    fn tell_of_slaves(&mut self, outlet: &Outlet) {
+        self.news = Instant::now();
         if let Some(status) = self.source.slaves() {
             outlet.send(Update::Slaves(Box::new(status)));
         }
