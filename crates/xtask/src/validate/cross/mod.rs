@@ -15,8 +15,8 @@ use super::picture::Picture;
 use crate::{Outcome, process, venv};
 
 const GROUP: &str = "Beside Mitsuba";
-/// Samples per pixel of each render in the quick form, of both.
-const SAMPLES: u32 = 128;
+/// Samples per pixel of each render in the quick form, of both, in scenes of the least noise.
+const SAMPLES: u32 = 32;
 /// What must be seen in each part of a picture, in the quick form and in the full one.
 const QUICK: f64 = 3e-2;
 const FULL: f64 = 5e-3;

@@ -14,7 +14,7 @@ pub struct Entry {
     pub slack: f64,
     /// Whether it has colours.
     pub is_coloured: bool,
-    /// How many times as many samples as others it needs for its noise.
+    /// How many times as many samples as the scenes of the least noise it needs.
     pub effort: u32,
     /// How many times as many samples the full form takes, so that half a percent of each region is seen by both.
     pub fine: u32,
@@ -24,7 +24,7 @@ pub struct Entry {
 
 impl Entry {
     fn new(name: &'static str, about: &'static str, stage: Stage) -> Self {
-        Self { name, about, slack: 0.0, is_coloured: false, effort: 1, fine: 4, stage }
+        Self { name, about, slack: 0.0, is_coloured: false, effort: 4, fine: 4, stage }
     }
 }
 
@@ -121,7 +121,7 @@ fn surfaces() -> Vec<Entry> {
         in_even_light(steel),
     );
     rough.slack = 2e-3;
-    rough.fine = 2;
+    (rough.effort, rough.fine) = (1, 8);
     let mut frosted = Entry::new(
         "rough glass",
         "Trowbridge and Reitz's facets of the exponent 200, width 0.1, n = 1.5; both lose what would be scattered twice. Masking \
@@ -129,7 +129,7 @@ fn surfaces() -> Vec<Entry> {
         in_even_light(Surface::Frosted(1.5, 200.0)),
     );
     frosted.slack = 1e-3;
-    frosted.fine = 1;
+    frosted.effort = 1;
     vec![
         Entry::new("matt box", "Matt walls, a block and a lamp.", in_room(vec![block(matt(0.4))])),
         Entry {
@@ -139,7 +139,7 @@ fn surfaces() -> Vec<Entry> {
         rough,
         Entry {
             is_coloured: true,
-            fine: 1,
+            effort: 1,
             ..Entry::new(
                 "gold",
                 "A smooth ball of gold, by the table of n and k that comes with Indigo.",
@@ -147,7 +147,7 @@ fn surfaces() -> Vec<Entry> {
             )
         },
         Entry {
-            fine: 1,
+            effort: 1,
             ..Entry::new(
                 "smooth glass",
                 "A glass ball, n = 1.5, on a matt floor, with its caustic of even light.",
@@ -167,7 +167,7 @@ fn bodies() -> Vec<Entry> {
             in_room(vec![ball([0.0, 0.0, -0.2], 0.6, Surface::Fog(1.0, 0.5, 3.0, 0.0))]),
         ),
         Entry {
-            effort: 2,
+            effort: 8,
             ..Entry::new(
                 "fog, Henyey and Greenstein",
                 "A ball of fog that scatters forwards, g = 0.7.",
@@ -211,10 +211,10 @@ fn lights() -> Vec<Entry> {
         mapped,
     );
     environment.slack = 1e-3;
-    environment.fine = 2;
+    environment.effort = 2;
     vec![
         Entry {
-            effort: 2,
+            effort: 8,
             fine: 5,
             ..Entry::new(
                 "lamps",
@@ -223,7 +223,7 @@ fn lights() -> Vec<Entry> {
             )
         },
         Entry {
-            effort: 2,
+            effort: 8,
             ..Entry::new("thin lens", "An aperture of 0.3 m, focused 2.6 m away, before the room.", lens)
         },
         Entry::new(

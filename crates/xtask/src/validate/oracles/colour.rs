@@ -64,7 +64,7 @@ pub fn checks() -> Vec<Check> {
     let about = "1 W m⁻² sr⁻¹ in a band of 1 nm at 555 nm has 683 cd/m² (by definition 683 lm/W at 540 THz), less a twenty-thousandth at the band's edges.";
     let [_, luminance, _] = tristimulus(554.5, 555.5, |_| 1.0);
     checks.push(
-        seen("555 nm", about, band).is(luminance, 1e-6 * luminance).effort(1024, 2e-2).in_full(4096, 2e-2),
+        seen("555 nm", about, band).is(luminance, 1e-6 * luminance).effort(128, 2e-2).in_full(4096, 2e-2),
     );
     let white = "<rgb><rgb>1e5 1e5 1e5</rgb></rgb>";
     let about = "An `rgb` spectrum of equal values is light of D65: the CIE's table of 5 nm, straight between, under the observer.";

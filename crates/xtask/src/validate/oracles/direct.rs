@@ -112,7 +112,7 @@ pub fn checks() -> Vec<Check> {
         + &mesh_light("ball", &uniform(RADIANCE), [0.3, -0.2, 1.5], 0.3, "");
     let about = "Lambert's sum over the edges of each triangle that shows its front, mean over the patch that is seen.";
     let ball = floor("ball of 512 triangles", about, &lamp, [0.0; 3], under(placed, radiance));
-    checks.push(by_techniques(ball.effort(1024, 1e-2)));
+    checks.push(by_techniques(ball.effort(1024, 1e-2)).quickly(64));
     let both = manual_lamp() + &changed(&manual_lamp(), "0 0 1.9", "1 1 1.9");
     let about = "Light adds up: 153.7376 lx + 63.9058 lx.";
     let under_both = |p: Point| under_manual()(p) + under_manual()(sub(p, [1.0, 1.0, 0.0]));

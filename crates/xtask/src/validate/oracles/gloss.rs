@@ -77,6 +77,7 @@ fn coat(exponent: f64, grey: f64, degrees: f64) -> Check {
         .unit(super::AROUND_NITS)
         .is(facets + grey * (1.0 - facets), TABULATED * (1.0 - grey))
         .by(TECHNIQUES)
+        .quickly(48)
 }
 
 /// Oren and Nayar's facets of grey albedo.
@@ -99,6 +100,7 @@ fn clay(sigma: f64, grey: f64, degrees: f64) -> Check {
         .unit(super::AROUND_NITS)
         .is(grey * once + further * (1.0 - once), TABULATED * further)
         .by(TECHNIQUES)
+        .quickly(48)
 }
 
 /// Share of light that facets reflect at once, seen under a cosine: ∫ F D G₂ (o·h) / cos o dh over normals whose reflection

@@ -193,7 +193,7 @@ fn below(degrees: f64) -> Check {
     let check =
         Check::new(GROUP, format!("photometric lamp at {degrees}°"), about, floor(&lamp(HEIGHT), target));
     // The lamp is 1 cm to each side: 3·10⁻⁵ of d², and no kink of the file lies within its angle.
-    with_file(check.is(value, 3e-5 * value)).by(TECHNIQUES).effort(64, 5e-3).in_full(256, 5e-3)
+    with_file(check.is(value, 3e-5 * value)).by(TECHNIQUES).effort(16, 5e-3).in_full(256, 5e-3)
 }
 
 /// The floor in another direction round the axis of a lamp whose intensities differ there.
@@ -210,7 +210,7 @@ fn around(degrees: f64) -> Check {
     let name = format!("photometric lamp, {degrees}° round its axis");
     let mut check = Check::new(GROUP, name, about, floor(&lamp(HEIGHT), target));
     check.files.push(("lamp.ies".to_owned(), photometry_round()));
-    check.is(value, 3e-5 * value).by(TECHNIQUES).effort(64, 5e-3).in_full(256, 5e-3)
+    check.is(value, 3e-5 * value).by(TECHNIQUES).effort(16, 5e-3).in_full(256, 5e-3)
 }
 
 fn with_file(mut check: Check) -> Check {

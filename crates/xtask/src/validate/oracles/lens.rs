@@ -49,6 +49,7 @@ pub fn checks() -> Vec<Check> {
             .unit(AROUND_NITS)
             .by(TECHNIQUES)
             .effort(512, 2e-2)
+            .quickly(128)
             .in_full(1024, 2e-2);
         // A point of the lens and the focus fix the ray, so that the disc is evenly filled; the picture is a hundredth of a
         // millimetre of it.

@@ -22,7 +22,8 @@ const QUARTERS_FILE: &str = "quarters.exr";
 fn hangs(name: &str, about: &str, scene: impl Fn(String) -> [String; 3]) -> Check {
     let square = hung::corners([0.0, 5.0, 0.0], [0.0, -1.0, 0.0], 1.0);
     let scene = looking([0.0; 3], [0.0, 1.0, 0.0], 0.2, "", &scene(hung::mesh("square", "m", square, 1.0)));
-    let check = Check::new(GROUP, name, about, scene).unit(AROUND_NITS).by(TECHNIQUES).effort(64, 5e-3);
+    let check =
+        Check::new(GROUP, name, about, scene).unit(AROUND_NITS).by(TECHNIQUES).effort(64, 5e-3).quickly(32);
     let mut check = quarters(check);
     let side = SIDE as usize;
     // Without the pixels beside the edges, over which texels blend.
@@ -117,6 +118,7 @@ fn views() -> Vec<Check> {
             .is(part(direction.map(|v| v > 0.0)), 0.0)
             .by(PATH)
             .effort(64, 5e-3)
+            .quickly(8)
     };
     [
         ("ahead to the right, above", [1.0, 1.0, 0.8]),
@@ -139,7 +141,7 @@ fn lit_by_map() -> Check {
                  half a texel: 10⁻⁵ of it.";
     let value = ALBEDO * 0.25 * parts.iter().sum::<f64>();
     let check = Check::new(GROUP, "a wall lit by surroundings", about, scene).unit(AROUND_NITS);
-    surroundings(check).is(value, 2e-5 * value).by(TECHNIQUES).effort(64, 5e-3)
+    surroundings(check).is(value, 2e-5 * value).by(TECHNIQUES).effort(64, 5e-3).quickly(16)
 }
 
 /// Glass that lets nothing through, raised by heights with one slope, seen at 60°: its reflectance tells the angle to the bent
