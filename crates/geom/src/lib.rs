@@ -2,7 +2,7 @@
 //!
 //! [`Accel`] owns the meshes and answers two questions: the closest hit of a ray, and whether
 //! anything is in its way. [`Accel::surface`] turns a hit into a [`SurfacePoint`] with an error
-//! bound; [`offset_origin`] starts the next ray clear of that error.
+//! bound; [`offset_origin`] starts the next ray clear of that error, and [`offset_target`] ends one there.
 //!
 //! What moves has a [`Movement`], and is where it is at the [`Ray::time`].
 //!
@@ -35,4 +35,4 @@ pub use object::Object;
 pub use ray::{Hit, Ray};
 pub use stop::Stop;
 pub use store::{NoStore, TreeStore};
-pub use surface::{SurfacePoint, offset_origin};
+pub use surface::{SurfacePoint, offset_origin, offset_target};

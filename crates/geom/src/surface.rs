@@ -18,6 +18,11 @@ const ROUNDING: f64 = 0.5 * f32::EPSILON as f64;
 /// extent; γ₁₂ of each of three products bounds it (Pharr, Jakob, Humphreys, "Physically Based
 /// Rendering", 4th ed., section 6.8, gives the calculus).
 const TEST_ROUNDINGS: f64 = 36.0;
+/// The same as a share of that extent.
+const TESTED: f64 = TEST_ROUNDINGS * ROUNDING;
+
+/// How far, in roundings of a ray's length, the test can find a plane beside itself at the ray's end.
+const ALONG_ROUNDINGS: f64 = 12.0;
 
 /// A point of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,6 +58,18 @@ pub fn offset_origin(p: Vec3, p_error: Vec3, n_g: Vec3, dir: Vec3, floor: Real) 
     let error = n_g.abs().dot(p_error + p.abs() * Real::EPSILON);
     let distance = (error * (1.0 + 8.0 * Real::EPSILON)).max(floor);
     p + n_g * distance.copysign(dir.dot(n_g))
+}
+
+/// Where to end a ray that comes to `p` from the far end of `back`, before the surface and clear of its error.
+///
+/// As [`offset_origin`], but the triangle test begins with differences as long as the ray here, and not only as the triangle: a
+/// corner less the origin, its shear along the ray, its share of t. Those are some ten roundings of the ray's length along
+/// each axis; what the edge functions round is still of the triangle's extent, since only differences of the corners'
+/// depths multiply it.
+#[inline]
+pub fn offset_target(p: Vec3, p_error: Vec3, n_g: Vec3, back: Vec3, floor: Real) -> Vec3 {
+    let along = back.abs() * Real::from_f64(ALONG_ROUNDINGS * ROUNDING);
+    offset_origin(p, p_error + along, n_g, back, floor)
 }
 
 impl Accel {
@@ -101,6 +118,12 @@ impl Accel {
             material_slot: placed.mesh.material_slot(triangle),
             time,
         })
+    }
+
+    /// Bounds, for each axis, how far beside a triangle a ray that leaves it may find it; none where the object is not a mesh or
+    /// has no such triangle.
+    pub fn test_error(&self, object: u32, triangle: u32) -> Vec3 {
+        self.placed(object, triangle, 0.0).map_or(Vec3::ZERO, |placed| placed.test_error().cast())
     }
 
     /// The corners of a triangle in render space; `None` where the object is not a mesh or has no
@@ -170,17 +193,20 @@ impl PlacedTriangle<'_> {
 
     /// Bounds how far `p`, once rounded, and the next ray's test of the tree's triangle are off.
     fn error(&self, p: Vec3d) -> Vec3 {
-        let tested = if self.baked {
-            Vec3d::splat(TEST_ROUNDINGS * ROUNDING * extent(&self.corners))
-        } else {
-            // In the instance's own space, where the ray is rounded once more.
-            let local = self.local.map(|c| Vec3d::from(c.map(f64::from)));
-            let size = local.iter().fold(Vec3d::ZERO, |m, c| m.max(c.abs())) * ROUNDING;
-            let off = size + Vec3d::splat(TEST_ROUNDINGS * ROUNDING * extent(&local));
-            let rows = self.transform.linear().rows;
-            Vec3d::from(rows.map(|row| row.abs().dot(off)))
-        };
-        (p.abs() * ROUNDING + tested).cast()
+        (p.abs() * ROUNDING + self.test_error()).cast()
+    }
+
+    /// Bounds how far the next ray's test of the tree's triangle is off.
+    fn test_error(&self) -> Vec3d {
+        if self.baked {
+            return Vec3d::splat(TESTED * extent(&self.corners));
+        }
+        // In the instance's own space, where the ray is rounded once more.
+        let local = self.local.map(|c| Vec3d::from(c.map(f64::from)));
+        let size = local.iter().fold(Vec3d::ZERO, |m, c| m.max(c.abs())) * ROUNDING;
+        let off = size + Vec3d::splat(TESTED * extent(&local));
+        let rows = self.transform.linear().rows;
+        Vec3d::from(rows.map(|row| row.abs().dot(off)))
     }
 }
 

@@ -5,6 +5,7 @@ mod common;
 use common::{KERNELS, Random, bumpy_sphere, options, place, ray, real, triangle_cloud, vec};
 use indigo_geom::{
     Accel, BuildOptions, MeshBuffers, Movement, NoStore, Object, Ray, TriangleMesh, offset_origin,
+    offset_target,
 };
 use indigo_math::{Bounds3, Float, Mat3, Motion, Pose, Real, Transform, Vec3, Vec3d};
 
@@ -204,6 +205,42 @@ fn rays_that_leave_a_surface_do_not_meet_it_again() {
         }
     }
     assert!(tried > 400_000, "{tried}");
+}
+
+#[test]
+fn rays_that_end_at_a_surface_do_not_meet_it() {
+    let mut random = Random(43);
+    let mut tried = 0;
+    for (power, instanced) in (-3..=6).zip([false, true].into_iter().cycle()) {
+        let scale = 10f64.powi(power);
+        // Small beside where it is: what is near the camera has small coordinates, and rounds no less for that.
+        let origin = random.in_box(0.1 * scale);
+        let transform = Transform::new(Mat3::scaling(scale), origin).unwrap();
+        let far = Transform::new(Mat3::scaling(scale), origin + Vec3d::splat(1e3 * scale)).unwrap();
+        let options =
+            BuildOptions { bake_limit: if instanced { 0 } else { 1 << 20 }, ..BuildOptions::default() };
+        let mesh = triangle_cloud(64, 0.7, &mut random);
+        let objects = vec![place(0, transform), place(0, far)];
+        let accel = Accel::build(vec![mesh], objects, &options, &NoStore).unwrap();
+        for _ in 0..20_000 {
+            let (u, v) = (random.unit(), random.unit());
+            let bary = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
+            let triangle = (random.unit() * 64.0) as u32;
+            let s = accel.triangle_point(0, triangle, (real(bary.0), real(bary.1))).unwrap();
+            let distance = scale * 10f64.powf(4.0 * random.unit() - 1.0);
+            let o: Vec3 = (vec(s.p) + random.direction() * distance).cast();
+            let end = offset_target(s.p, s.p_error, s.n_g, o - s.p, 0.0);
+            let ray = Ray { t_max: 1.0, ..Ray::new(o, end - o) };
+            tried += 1;
+            if let Some(hit) = accel.intersect(&ray) {
+                assert!(
+                    hit.object != 0 || hit.primitive != triangle,
+                    "scale {scale} {distance} {s:?} {hit:?}"
+                );
+            }
+        }
+    }
+    assert_eq!(tried, 200_000);
 }
 
 #[test]

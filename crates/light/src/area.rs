@@ -39,6 +39,8 @@ struct EmitterTriangle {
     edge1: Vec3,
     edge2: Vec3,
     normal: Vec3,
+    /// How far beside the triangle a ray may find it, for each axis.
+    test_error: Vec3,
 }
 
 /// A profile, and how it lies on each triangle.
@@ -65,6 +67,7 @@ impl AreaLight {
                     edge1: e1.cast(),
                     edge2: e2.cast(),
                     normal: normal.cast(),
+                    test_error: Vec3::ZERO,
                 }
             })
             .collect();
@@ -88,6 +91,14 @@ impl AreaLight {
     #[must_use]
     pub fn turned_over(mut self) -> Self {
         self.triangles.iter_mut().for_each(|t| t.normal = -t.normal);
+        self
+    }
+
+    /// The lamp with a bound, for each of its triangles and each axis, of how far beside it a ray may find it. Without it
+    /// points are told as surely as they are drawn, and rays to them may meet the lamp itself.
+    #[must_use]
+    pub fn with_test_errors(mut self, error: impl Fn(u32) -> Vec3) -> Self {
+        (0..).zip(&mut self.triangles).for_each(|(i, t)| t.test_error = error(i));
         self
     }
 
@@ -269,7 +280,7 @@ impl AreaLight {
         let bary = self.modulation.as_ref().map_or_else(|| uniform_triangle(v), |m| m.sample(triangle, v));
         let (a, b) = (t.edge1 * bary.0, t.edge2 * bary.1);
         // Two products and two sums, each rounded once, of magnitudes that the terms bound.
-        let p_error = (t.corner.abs() + a.abs() + b.abs()) * (4.0 * Real::EPSILON);
+        let p_error = (t.corner.abs() + a.abs() + b.abs()) * (4.0 * Real::EPSILON) + t.test_error;
         EmitterPoint { p: t.corner + a + b, p_error, n: t.normal, triangle: triangle as u32, bary }
     }
 

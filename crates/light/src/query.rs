@@ -66,7 +66,7 @@ pub struct EmitterHit {
 pub struct EmitterPoint {
     /// Render-space position.
     pub p: Vec3,
-    /// Bound on the rounding error of `p`, for each axis.
+    /// Bound on the error of `p` and of where a ray finds the lamp, for each axis.
     pub p_error: Vec3,
     /// Unit normal of the emitting side.
     pub n: Vec3,

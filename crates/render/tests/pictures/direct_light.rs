@@ -27,8 +27,13 @@ fn manual_lamp() -> String {
 
 /// A scene of lamps over a floor, looked at from `eye` towards `target`.
 fn over_floor(lamps: &str, eye: Point, target: Point) -> String {
+    over_floor_with("", lamps, eye, target)
+}
+
+/// The same with more settings.
+fn over_floor_with(more: &str, lamps: &str, eye: Point, target: Point) -> String {
     scene_file(&[
-        settings(8, ""),
+        settings(8, more),
         flat_camera(eye, sub(target, eye), NARROW),
         grey("floor", ALBEDO),
         Mesh::square(20.0, 0.0).text("ground", "floor"),
@@ -76,6 +81,24 @@ fn the_manuals_lamp_has_the_luminance_of_its_power() {
 fn the_manuals_lamp_lights_the_floor_by_the_closed_form() {
     assert_lit("below", &manual_lamp(), [0.0; 3], 153.737_6, 96);
     assert_lit("at (1, 1)", &manual_lamp(), [1.0, 1.0, 0.0], 63.905_8, 96);
+}
+
+/// A lamp just above the camera has small coordinates, and rays to it are rounded by the lengths of ray and lamp all the same:
+/// without a nudge, too, none meets the lamp before its end.
+#[test]
+fn a_lamp_near_the_camera_does_not_shade_itself() {
+    let radiance = 5.0e7;
+    let lamp = format!(
+        "<rectanglelight><pos>0 0 0.45</pos><width>2</width><height>1</height><spectrum>{}</spectrum></rectanglelight>",
+        uniform(radiance)
+    );
+    let size = [1.0, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 0.0, 1.0];
+    let shape = Mesh::square(1.0, 0.0).inside_out().placed(size, 1.0, [0.0, 0.0, 0.45]);
+    let illuminance = shape.irradiance([0.0; 3], [0.0, 0.0, 1.0]) * radiance * NITS_PER_UNIFORM;
+    let exact = "<ray_origin_nudge_distance>0</ray_origin_nudge_distance>";
+    let text = over_floor_with(exact, &lamp, [1.5, 0.5, 0.4], [0.0; 3]);
+    let measured = measure(&scene(&text), 16, 256);
+    assert_is("floor", measured.luminance(), ALBEDO * illuminance / PI, TOLERANCE);
 }
 
 /// Irradiance for radiance 1 by the closed forms, evaluated by another program to nine digits.

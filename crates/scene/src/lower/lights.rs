@@ -146,11 +146,16 @@ impl Lights {
         let of_lamps = self.lamps.iter().map(AreaLight::group);
         let (mix, numbers) = layers.mix(of_lamps.chain(self.distant.iter().map(|(_, group)| *group)));
         let number = |group: u16| numbers[usize::from(group)];
-        let in_order = |lamp: AreaLight| {
+        let mut objects = vec![u32::MAX; self.lamps.len()];
+        for (object, lamp) in (0..).zip(geometry.lights()) {
+            lamp.into_iter().for_each(|lamp| objects[lamp as usize] = object);
+        }
+        let in_order = |(lamp, object): (AreaLight, u32)| {
             let group = number(lamp.group());
+            let lamp = lamp.with_test_errors(|triangle| accel.test_error(object, triangle));
             lamp.in_group(group).with_attention(attention(&mix, group))
         };
-        let lamps = self.lamps.into_iter().map(in_order).collect();
+        let lamps = self.lamps.into_iter().zip(objects).map(in_order).collect();
         let (distant, groups): (Vec<_>, Vec<_>) = self.distant.into_iter().unzip();
         let table = LightTable::with_portals(lamps, distant, geometry.lights(), sphere, portals);
         (table.with_distant_groups(groups.into_iter().map(number).collect()), mix)

@@ -2,7 +2,7 @@
 
 use super::media::{Passage, World, sides};
 use super::vertex::Vertex;
-use indigo_geom::{Ray, SurfacePoint, offset_origin};
+use indigo_geom::{Ray, SurfacePoint, offset_origin, offset_target};
 use indigo_light::{EmitterPoint, LightSample};
 use indigo_math::{Real, Vec3};
 use indigo_scatter::MediumStack;
@@ -43,6 +43,15 @@ impl Point {
             return self.p;
         }
         offset_origin(self.p, self.p_error, self.n, direction, scene.nudge_m)
+    }
+
+    /// Where a ray ends that comes from the far end of a way back, clear of the surface's own error.
+    #[inline]
+    fn reach(&self, scene: &Scene, back: Vec3) -> Vec3 {
+        if self.n == Vec3::ZERO {
+            return self.p;
+        }
+        offset_target(self.p, self.p_error, self.n, back, scene.nudge_m)
     }
 
     /// Its place, where it is on a surface: rays leave it a little way off.
@@ -123,7 +132,7 @@ pub(super) fn way(world: &World, from: &Vertex, wi: Vec3, to: &Point) -> Option<
 fn between(world: &World, from: &Point, media: &MediumStack, to: &Point) -> Option<Passage> {
     let along = to.p - from.p;
     let origin = from.leave(world.scene, along);
-    let target = to.leave(world.scene, -along);
+    let target = to.reach(world.scene, -along);
     // t = 1 is the target itself, which does not count.
     let ray = Ray { t_max: 1.0, ..world.ray(origin, target - origin) };
     // The ray leaves its ends a little way off; what it passes counts from the ends themselves.
