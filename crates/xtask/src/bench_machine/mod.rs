@@ -79,7 +79,7 @@ impl Options {
             }
             let value = words.next().ok_or(USAGE)?.clone();
             match word.as_str() {
-                "--name" => options.name = value,
+                "--name" if Path::new(&value).file_name() == Some(value.as_ref()) => options.name = value,
                 "--against" => options.against = Some(value.into()),
                 "--only" => options.only = Some(value),
                 "--repeat" => options.repeat = value.parse().ok().filter(|n| *n > 0).ok_or(USAGE)?,
@@ -109,12 +109,14 @@ pub fn run(arguments: &[String]) -> Outcome {
             figures.extend(measure(&console, series, &point, options.repeat)?);
         }
     }
+    // What cannot be run, for want of a network say, loses nothing of what was measured.
+    let mut missing = vec![];
     for other in OTHERS {
         if options.only.as_ref().map_or(options.full, |only| other.name == only) {
-            figures.extend(other.measure()?);
+            other.measure().map_or_else(|why| missing.push(why), |more| figures.extend(more));
         }
     }
-    if figures.is_empty() {
+    if figures.is_empty() && missing.is_empty() {
         return Err(format!("no series of that name; there are {}", names().join(", ")));
     }
     let write = |ending: &str, text: String| {
@@ -133,7 +135,7 @@ pub fn run(arguments: &[String]) -> Outcome {
     write("json", format!("{run:#}\n"))?;
     write("html", page::page(&run, &figures, earlier.as_ref()))?;
     say(&figures, earlier.as_ref());
-    Ok(())
+    if missing.is_empty() { Ok(()) } else { Err(missing.join("\n")) }
 }
 
 fn names() -> Vec<&'static str> {
@@ -217,12 +219,14 @@ fn measure(console: &Console, series: &Series, point: &Point, repeat: usize) -> 
             series: series.name.to_owned(),
             x: point.x,
             name: (*name).to_owned(),
-            value: values[values.len() / 2],
+            value: 0.5 * (values[values.len() / 2] + values[(values.len() - 1) / 2]),
             spread: Some([values[0], values[values.len() - 1]]),
         }
     };
     let figures = FIGURES.iter().enumerate().map(figure);
-    Ok(figures.filter(|figure| series.figures.contains(&figure.name.as_str())).collect())
+    // The system may not tell of memory.
+    let is_known = |figure: &Figure| figure.name != MEMORY || figure.value > 0.0;
+    Ok(figures.filter(|figure| series.figures.contains(&figure.name.as_str()) && is_known(figure)).collect())
 }
 
 /// What is measured of each run, in this order.
@@ -234,9 +238,10 @@ const FIGURES: &[&str] = &[
     "start_s",
     "first_pixel_s",
     "develop_s",
-    "peak_memory_mb",
+    MEMORY,
     SAVE,
 ];
+const MEMORY: &str = "peak_memory_mb";
 const SAVE: &str = "develop_and_save_s";
 
 /// Seconds to develop the film and to save the picture, the untonemapped one and the film.

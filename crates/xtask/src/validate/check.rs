@@ -116,6 +116,8 @@ pub struct Row {
     pub area: Option<Area>,
     /// What it must be.
     pub target: Target,
+    /// Which share of it must be seen, where that is not the check's.
+    pub demand: Option<f64>,
 }
 
 /// How finely a picture is rendered, and what must be seen in it.
@@ -123,7 +125,8 @@ pub struct Row {
 pub struct Demand {
     /// Samples per pixel of each render, but by those who take [longer](Check::longer).
     pub samples: u32,
-    /// A deviation of this share of a number must be seen, or the number is unresolved, which fails.
+    /// A deviation of this share of a number must be seen, or the number is unresolved, which fails where it is so beyond the
+    /// error of the standard error.
     pub resolution: f64,
     /// A deviation of this share of its value must be seen in half of the blocks where blocks are compared.
     pub blocks: f64,
@@ -227,7 +230,14 @@ impl Check {
     /// Expects one more number.
     #[must_use]
     pub fn row(mut self, what: &str, quantity: Quantity, area: Option<Area>, target: Target) -> Self {
-        self.rows.push(Row { what: what.to_owned(), quantity, area, target });
+        self.rows.push(Row { what: what.to_owned(), quantity, area, target, demand: None });
+        self
+    }
+
+    /// Asks more of the last number than of the others: a deviation of this share must be seen.
+    #[must_use]
+    pub fn finely(mut self, resolution: f64) -> Self {
+        self.rows.iter_mut().rev().take(1).for_each(|row| row.demand = Some(resolution));
         self
     }
 

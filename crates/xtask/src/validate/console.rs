@@ -204,23 +204,29 @@ impl Console {
             return Ok(());
         }
         // In this order: were it ended in between, pictures of another program would pass for this one's.
-        self.clear(check, renderer);
+        self.clear(check, renderer)?;
         stamp.write(&mark)
     }
 
     /// Takes a renderer's pictures away: thousands of them would fill folders that nobody looks at. The scenes stay.
-    fn clear(&self, check: &Check, renderer: Renderer) {
-        for seed in 0..Form::Full.seeds() {
-            let [picture, linear] = self.pictures(check, renderer, seed);
-            drop((std::fs::remove_file(picture), std::fs::remove_file(linear)));
+    fn clear(&self, check: &Check, renderer: Renderer) -> Outcome {
+        for path in (0..Form::Full.seeds()).flat_map(|seed| self.pictures(check, renderer, seed)) {
+            match std::fs::remove_file(&path) {
+                Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+                    return Err(format!("{}: cannot be removed: {error}", path.display()));
+                }
+                _ => {}
+            }
         }
+        Ok(())
     }
 
     /// Takes all pictures away that were kept, once the report is written.
     pub fn clear_all<'a>(&self, checks: impl IntoIterator<Item = &'a Check>) {
         let checks = checks.into_iter().filter(|_| self.keep != Keep::Nothing);
         for check in checks {
-            check.renderers.iter().for_each(|renderer| self.clear(check, *renderer));
+            // A picture that stays does no harm: a later run takes it away, or says that it cannot.
+            check.renderers.iter().for_each(|renderer| drop(self.clear(check, *renderer)));
         }
     }
 

@@ -11,6 +11,9 @@ pub const GROUP: &str = "Agreement grid";
 /// alone take in as long.
 const SAMPLES: u32 = 12;
 const PATHS_ALONE: u32 = 2;
+/// Scenes whose rare paths need more samples, and how many times as many.
+const NOISY: &[(&str, u32)] =
+    &[("lamp_out_of_focus_in_fog", 40), ("coloured_walls_and_lamps", 6), ("lamps_out_of_focus", 5)];
 /// Share of the mean that must be seen, and of half of the blocks.
 const DEMAND: f64 = 1e-1;
 const BLOCKS: f64 = 0.5;
@@ -35,10 +38,11 @@ pub fn all() -> Vec<Check> {
 
 fn check(name: &str, scene: scenes::Written) -> Check {
     let about = "One of the scenes of crates/render/tests/agreement, by all ways of rendering.";
+    let times = NOISY.iter().find(|(noisy, _)| *noisy == name).map_or(1, |(_, times)| *times);
     let mut check = Check::new(GROUP, name.replace('_', " "), about, scene.text)
         .unit(stage::UNIT)
         .by(ALL)
-        .effort(SAMPLES, DEMAND)
+        .effort(times * SAMPLES, DEMAND)
         .blocks(BLOCKS, BLOCKS)
         .row("picture", Quantity::Y, None, Target::First(0.0));
     check.longer =

@@ -3,7 +3,7 @@
 use super::check::{Area, Check, Demand, Quantity, Renderer, Row, Target};
 use super::oracles::EVEN_LIGHT;
 use super::picture::Picture;
-use super::statistics::{Comparison, Estimate, quantile, sidak};
+use super::statistics::{Comparison, Estimate, inflation, quantile, sidak};
 
 /// Probability that any comparison of a run fails although nothing is wrong.
 pub const FAMILY: f64 = 1e-3;
@@ -64,7 +64,9 @@ pub struct Verdict {
     pub allowance: f64,
     /// The share of the value that a deviation must have to be seen.
     pub resolution: f64,
-    /// What that may be.
+    /// How much of that is noise.
+    pub noise: f64,
+    /// What the resolution may be.
     pub demand: f64,
     /// The p-value below which it fails.
     pub threshold: f64,
@@ -80,12 +82,26 @@ impl Verdict {
             Some(Failure::NoNumber)
         } else if self.comparison.p < self.threshold {
             Some(Failure::Deviates)
-        } else if self.resolution > self.demand {
+        } else if self.least_resolution() > self.demand {
             Some(Failure::Unresolved)
         } else {
             None
         };
         self
+    }
+}
+
+impl Verdict {
+    /// The resolution, were the noise as little as its standard error allows at the threshold: it is known by a few renders, and may have
+    /// come out large by chance.
+    fn least_resolution(&self) -> f64 {
+        let certain = self.noise / inflation(self.threshold, self.comparison.freedom);
+        if self.noise > 0.0 { self.resolution - self.noise + certain } else { self.resolution }
+    }
+
+    /// Whether it resolves less finely than it should, if not surely so.
+    pub fn is_coarse(&self) -> bool {
+        self.resolution > self.demand
     }
 }
 
@@ -147,8 +163,8 @@ impl Judge<'_> {
         let is_bound = matches!(row.target, Target::AtMost(_));
         let Beside { measured, expected, comparison, allowance } =
             Beside::of(measured, expected, uncertainty, is_bound);
-        // What is granted is not noticed.
-        let noise = quantile(SEEN, comparison.freedom) * comparison.error;
+        let scale = scale(&expected, unit);
+        let noise = quantile(SEEN, comparison.freedom) * comparison.error / scale;
         let verdict = Verdict {
             renderer,
             what: row.what.clone(),
@@ -158,8 +174,10 @@ impl Judge<'_> {
             measured,
             comparison,
             allowance,
-            resolution: (noise + allowance) / scale(&expected, unit),
-            demand: self.demand.resolution,
+            // What is granted is not noticed.
+            resolution: noise + allowance / scale,
+            noise,
+            demand: row.demand.unwrap_or(self.demand.resolution),
             threshold: self.threshold,
             failure: None,
         }
@@ -211,6 +229,7 @@ impl Judge<'_> {
         let Beside { measured, expected, mut comparison, allowance } = worst.expect("there are blocks");
         comparison.p = -((-comparison.p).ln_1p() * tests as f64).exp_m1();
         errors.sort_by(f64::total_cmp);
+        let resolution = errors[tests / 2] * quantile(sidak(SEEN, tests), comparison.freedom);
         Verdict {
             renderer,
             what: format!("worst of {tests} block means, {words}"),
@@ -220,7 +239,8 @@ impl Judge<'_> {
             measured,
             comparison,
             allowance,
-            resolution: errors[tests / 2] * quantile(sidak(SEEN, tests), comparison.freedom),
+            resolution,
+            noise: resolution,
             demand: self.demand.blocks,
             threshold: self.threshold,
             failure: None,
@@ -252,6 +272,7 @@ impl Judge<'_> {
             comparison,
             allowance: 0.0,
             resolution: 0.0,
+            noise: 0.0,
             demand: 0.0,
             threshold: self.threshold,
             failure: is_wrong.then_some(failure),

@@ -99,6 +99,21 @@ impl Options {
     }
 }
 
+/// All checks.
+fn all() -> Vec<Check> {
+    [oracles::all(), agreement::all(), grid::all(), cross::all()].concat()
+}
+
+/// The p-value below which a comparison fails in the quick form of all checks.
+pub fn quick_threshold() -> f64 {
+    let checks: Vec<Check> = all().into_iter().filter(|check| !check.full_only).collect();
+    threshold(comparisons(&checks))
+}
+
+fn comparisons(checks: &[Check]) -> usize {
+    checks.iter().map(Check::comparisons).sum::<usize>() + signs::ways(checks).len()
+}
+
 /// `cargo xtask validate`.
 ///
 /// # Errors
@@ -106,7 +121,7 @@ impl Options {
 pub fn run(arguments: &[String]) -> Outcome {
     let options = Options::parse(arguments)?;
     let date = here::date();
-    let all = [oracles::all(), agreement::all(), grid::all(), cross::all()].concat();
+    let all = all();
     let left_out = LeftOut::count(all.iter().filter_map(|check| options.leaves_out(check)));
     let checks: Vec<Check> = all.into_iter().filter(|check| options.leaves_out(check).is_none()).collect();
     if checks.is_empty() {
@@ -129,13 +144,15 @@ pub fn run(arguments: &[String]) -> Outcome {
         venv::for_validation()?;
     }
     let ways = signs::ways(&checks);
-    let comparisons: usize = checks.iter().map(Check::comparisons).sum::<usize>() + ways.len();
+    let comparisons = comparisons(&checks);
     let form = options.form;
     // The program is built, and the other renderer installed.
     let start = Instant::now();
     println!("{} checks, {comparisons} comparisons, {} renders each", checks.len(), form.seeds());
     let mut renders = console.render(&checks, form)?;
     cross::render(&checks, &mut renders, &console, form)?;
+    let has_peer = checks.iter().any(|check| check.mitsuba.is_some());
+    let peer = has_peer.then(|| cross::version(&console.folder)).flatten();
     let threshold = threshold(comparisons);
     let count = checks.len();
     let pairs = checks.into_iter().zip(renders);
@@ -152,6 +169,7 @@ pub fn run(arguments: &[String]) -> Outcome {
         form,
         family: FAMILY,
         version: console.version(),
+        peer,
     };
     report.write(&options.out)?;
     report.say();
@@ -195,7 +213,7 @@ mod tests {
 
     #[test]
     fn every_check_has_a_name_of_its_own_and_expects_something() {
-        let all = [oracles::all(), agreement::all(), grid::all(), cross::all()].concat();
+        let all = all();
         let mut slugs: Vec<String> = all.iter().map(Check::slug).collect();
         slugs.sort();
         let shared: Vec<_> = slugs.windows(2).filter(|pair| pair[0] == pair[1]).collect();
@@ -211,6 +229,21 @@ mod tests {
     fn pictures(value: f64) -> Vec<Picture> {
         let noise = |seed: usize| 1.0 + 4e-4 * (f64::from(seed as u32 % 4) - 1.5);
         (0..16).map(|seed| Picture { size: [8, 8], pixels: vec![[value * noise(seed); 3]; 64] }).collect()
+    }
+
+    /// The threshold hangs on how many comparisons there will be.
+    #[test]
+    fn as_many_comparisons_are_made_as_were_counted() {
+        // As large as any.
+        let picture = Picture { size: [64; 2], pixels: vec![[1.0; 3]; 64 * 64] };
+        for check in all() {
+            let series =
+                |_| console::Series { pictures: vec![picture.clone(); 2], wrong_codes: 0, seconds: 0.0 };
+            let (counted, name) = (check.comparisons(), check.name.clone());
+            let rendered = Ok(check.renderers.iter().map(series).collect());
+            let checked = judged(check, rendered, Form::Quick, 1e-6);
+            assert_eq!(checked.verdicts.len(), counted, "{name}");
+        }
     }
 
     #[test]
@@ -230,7 +263,7 @@ mod tests {
     fn what_is_left_out_is_counted_by_its_reason() {
         let words = |list: &[&str]| list.iter().map(|word| (*word).to_owned()).collect::<Vec<_>>();
         let options = Options::parse(&words(&["--no-mitsuba", "--only", "glass"])).expect("it is right");
-        let all = [oracles::all(), agreement::all(), grid::all(), cross::all()].concat();
+        let all = all();
         let out = LeftOut::count(all.iter().filter_map(|check| options.leaves_out(check)));
         let kept = all.iter().filter(|check| options.leaves_out(check).is_none()).count();
         assert_eq!(out.checks() + kept, all.len());

@@ -2,10 +2,10 @@
 
 use std::fmt::Write;
 
-use super::check::{Area, Form, Renderer, Target};
+use super::check::{Area, Check, Form, Renderer, Target};
 use super::images::{DEEPEST, Other, deviations, difference, tone_mapped, white};
 use super::judge::Verdict;
-use super::report::{Checked, Report};
+use super::report::{Checked, Report, sentence};
 use crate::here;
 
 /// Style sheet, light and dark.
@@ -21,6 +21,7 @@ pub fn page(report: &Report) -> String {
     );
     page += &head(report);
     page += &summary(report);
+    page += &failed(report);
     for (name, list) in report.groups() {
         let _ = write!(page, "<h2 id=\"{}\">{name}</h2>", anchor(name));
         for checked in list {
@@ -49,17 +50,18 @@ fn head(report: &Report) -> String {
         "<h1>Do the pictures come out true?</h1><p class=\"lead\">{} {said}</p>\
          <p>Each picture was rendered {} times with independent random numbers; numbers are means, and intervals hold 95 % of them \
          by Student’s t. A comparison fails when its deviation is so unlikely that a right renderer would fail anywhere in this report \
-         with a probability of {} (Šidák), or when noise hides deviations that it must show (it is unresolved). The band in each drawing is what \
+         with a probability of {} (Šidák), or when noise hides deviations that it must show, beyond what is known of the noise (it is unresolved). The band in each drawing is what \
          a comparison would have noticed in half of all runs, were it the true deviation: nearly always from one and a half times as much on. {form}</p>\
          <p>Beside a picture is its difference from the value it must have, or from the first picture, in standard errors of each pixel, or \
          where it must be uneven in those of each area of which a value is known; of several pictures that are compared with one another the \
          first has none: \
          <span class=\"key\"></span> −{DEEPEST} to +{DEEPEST}; pixels that hold no numbers are magenta.</p>\
-         <p class=\"soft\">{} · {} · {} · {:.0} s · <code>{}</code></p>",
+         <p class=\"soft\">{}{} · {} · {} · {:.0} s · <code>{}</code></p>",
         escaped(&sentence_case(&report.extent)),
         report.form.seeds(),
         report.family,
         escaped(&report.version),
+        report.peer.as_ref().map(|peer| format!(" · beside {}", escaped(peer))).unwrap_or_default(),
         escaped(&report.date),
         escaped(&here::in_words(&report.machine)),
         report.seconds,
@@ -91,6 +93,18 @@ fn summary(report: &Report) -> String {
         );
     }
     table + "</table></div>"
+}
+
+/// What failed, in words, with the way there.
+fn failed(report: &Report) -> String {
+    let failures = report.failures().map(|(check, verdict)| (check, sentence(check, verdict)));
+    let broken =
+        report.broken().map(|(check, _)| (check, format!("{}: {}: not rendered", check.group, check.name)));
+    let line = |(check, words): (&Check, String)| {
+        format!("<li><a href=\"#{}\">{}</a></li>", check.slug(), escaped(&words))
+    };
+    let list: String = failures.chain(broken).map(line).collect();
+    if list.is_empty() { list } else { format!("<h2>What failed</h2><ul>{list}</ul>") }
 }
 
 fn badge(failed: usize) -> String {

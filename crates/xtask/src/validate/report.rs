@@ -47,6 +47,8 @@ pub struct Report {
     pub extent: String,
     /// Of the console.
     pub version: String,
+    /// Of the other renderer, where it rendered.
+    pub peer: Option<String>,
 }
 
 /// How many checks were left out, by the reason.
@@ -100,6 +102,11 @@ impl Report {
         self.verdicts().filter(|(_, verdict)| verdict.failure.is_some())
     }
 
+    /// How many comparisons resolve less finely than they should, but not surely so.
+    pub fn coarse(&self) -> usize {
+        self.verdicts().filter(|(_, verdict)| verdict.failure.is_none() && verdict.is_coarse()).count()
+    }
+
     /// All comparisons.
     pub fn verdicts(&self) -> impl Iterator<Item = (&Check, &Verdict)> {
         self.checked.iter().flat_map(|c| c.verdicts.iter().map(move |verdict| (&c.check, verdict)))
@@ -143,6 +150,12 @@ impl Report {
             let least = verdicts.iter().map(|verdict| verdict.comparison.p).fold(1.0, f64::min);
             println!("{name:<28} {:>4} comparisons, {failed:>3} failed, least p {least:.1e}", verdicts.len());
         }
+        let coarse = self.coarse();
+        if coarse > 0 {
+            println!(
+                "{coarse} comparisons resolve less finely than asked, but not beyond the error of their noise"
+            );
+        }
         println!("{}", self.extent);
         println!("{:.0} s, without what was built or installed", self.seconds);
     }
@@ -153,6 +166,7 @@ impl Report {
             json!({
                 "renderer": v.renderer.name(),
                 "what": v.what,
+                "area": v.area,
                 "expected": v.expected.mean,
                 "expected_standard_error": v.expected.error,
                 "at_most": v.is_bound,
@@ -169,6 +183,7 @@ impl Report {
                 "resolution": v.resolution,
                 "demand": v.demand,
                 "failure": v.failure.map(Failure::words),
+                "pass": v.failure.is_none(),
             })
         };
         let check = |c: &Checked| {
@@ -189,7 +204,12 @@ impl Report {
         };
         json!({
             "command": self.command,
+            "form": match self.form {
+                Form::Quick => "quick",
+                Form::Full => "full",
+            },
             "version": self.version,
+            "beside": self.peer,
             "date": self.date,
             "machine": self.machine,
             "seconds": self.seconds,
@@ -198,6 +218,8 @@ impl Report {
             "extent": self.extent,
             "comparisons": self.verdicts().count(),
             "failures": self.failures().count(),
+            "coarse": self.coarse(),
+            "pass": self.failures().count() == 0 && self.broken().count() == 0,
             "checks_not_rendered": self.broken().count(),
             "checks": self.checked.iter().map(check).collect::<Vec<_>>(),
         })
@@ -210,7 +232,7 @@ fn written(value: f64) -> Value {
 }
 
 /// A judgement in words.
-fn sentence(check: &Check, verdict: &Verdict) -> String {
+pub fn sentence(check: &Check, verdict: &Verdict) -> String {
     let mut text = format!("{}: {}, {}", check.group, check.name, verdict.renderer.name());
     if !verdict.what.is_empty() {
         let _ = write!(text, ", {}", verdict.what);

@@ -62,6 +62,7 @@ fn verdict(way: Renderer, summed: &[&Checked], threshold: f64) -> Option<Verdict
         comparison,
         allowance: 0.0,
         resolution: 0.0,
+        noise: 0.0,
         demand: 0.0,
         threshold,
         failure: None,

@@ -93,6 +93,14 @@ pub fn quantile(p: f64, freedom: f64) -> f64 {
     high
 }
 
+/// How many times as large as it truly is a standard error may come out, with a probability: √(χ² / ν) of its degrees of freedom, by
+/// Wilson and Hilferty's cube root (1931).
+pub fn inflation(p: f64, freedom: f64) -> f64 {
+    const NORMAL: f64 = 1e7;
+    let spread = 2.0 / (9.0 * freedom);
+    (1.0 - spread + quantile(2.0 * p, NORMAL) * spread.sqrt()).powf(1.5)
+}
+
 /// Regularised incomplete beta function by its continued fraction (Abramowitz and Stegun 26.5.8), evaluated from the
 /// front by the recurrence of Wallis with numerators and denominators kept near one.
 fn incomplete_beta(x: f64, a: f64, b: f64) -> f64 {
@@ -178,6 +186,15 @@ mod tests {
         assert!(Comparison::of(&estimate, &Estimate::exact(1.05), 0.0).p < 1e-6);
         assert_eq!(Comparison::of(&estimate, &Estimate::exact(1.05), 0.06).p, 1.0);
         assert_eq!(Comparison::of(&Estimate::exact(f64::NAN), &estimate, 0.0).p, 0.0);
+    }
+
+    /// Tabulated: 37.697 and 103.442 are χ² of 15 and 63 degrees of freedom that are passed with 0.001.
+    #[test]
+    fn standard_errors_come_out_large_by_chance() {
+        for (freedom, chi_square) in [(15.0, 37.697), (63.0, 103.442)] {
+            let tabulated = f64::sqrt(chi_square / freedom);
+            assert!((inflation(1e-3, freedom) / tabulated - 1.0).abs() < 2e-3, "{freedom}");
+        }
     }
 
     #[test]

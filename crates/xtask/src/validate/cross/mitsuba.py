@@ -1,11 +1,11 @@
 """Renders scenes with Mitsuba 3 as `cargo xtask validate` describes them.
 
-usage: mitsuba.py JOBS.json
+usage: mitsuba.py JOBS.json VERSION.txt
 
 JOBS.json is a list of {scene, samples, seeds, out}: the dictionary of a scene, in which shapes of type `mesh` hold
 `vertices` and `faces`, and `to_world` may be {look_at: [origin, target, up]}. Writes to `out` how many seconds it took and the
 pictures of the seeds, one after another: X, Y, Z of each pixel, in units of the luminance of a radiance of 1 at all wavelengths;
-all as 32-bit numbers. A scene that fails leaves no file, and the others are rendered.
+all as 32-bit numbers. Writes to VERSION.txt which Mitsuba rendered. A scene that fails leaves no file, and the others are rendered.
 """
 
 import json
@@ -99,7 +99,10 @@ def unit():
 def main():
     variant = choose_variant()
     one = unit()
-    print(f"  Mitsuba {mi.__version__}, {variant}, unit {one:.6f}", flush=True)
+    version = f"Mitsuba {mi.__version__}, {variant}"
+    print(f"  {version}, unit {one:.6f}", flush=True)
+    with open(sys.argv[2], "w") as file:
+        file.write(version)
     with open(sys.argv[1]) as file:
         jobs = json.load(file)
     failed = 0

@@ -23,6 +23,8 @@ const FULL: f64 = 5e-3;
 /// Means of the parts of a picture must agree within this share, beyond noise: what single precision and the digits of the
 /// observers' tables may make in two programs.
 const AGREEMENT: f64 = 2e-4;
+/// Where it writes which it is.
+const VERSION: &str = "mitsuba-version.txt";
 /// The script that renders with Mitsuba.
 const SCRIPT: &str = include_str!("mitsuba.py");
 
@@ -108,7 +110,12 @@ fn run_script(jobs: &[serde_json::Value], folder: &Path) -> Outcome {
     let script = write("render.py", SCRIPT.to_owned())?;
     let list = write("mitsuba.json", serde_json::Value::from(jobs).to_string())?;
     let python = venv::for_validation()?;
-    process::run(std::process::Command::new(python).arg(script).arg(list))
+    process::run(std::process::Command::new(python).arg(script).arg(list).arg(folder.join(VERSION)))
+}
+
+/// Which Mitsuba rendered what lies in a folder, if any did.
+pub fn version(folder: &Path) -> Option<String> {
+    std::fs::read_to_string(folder.join(VERSION)).ok()
 }
 
 /// Mitsuba's first of a check, of 32 bits.

@@ -168,6 +168,7 @@ fn bodies() -> Vec<Entry> {
         ),
         Entry {
             effort: 8,
+            fine: 6,
             ..Entry::new(
                 "fog, Henyey and Greenstein",
                 "A ball of fog that scatters forwards, g = 0.7.",
