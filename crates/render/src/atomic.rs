@@ -46,7 +46,8 @@ pub fn check_writable(path: &Path) -> io::Result<()> {
     }
     let directory = directory_of(path);
     std::fs::create_dir_all(&directory)?;
-    let (_, temporary) = new_temporary(&directory, path)?;
+    // Kept open, and so locked, until it is gone.
+    let (_file, temporary) = new_temporary(&directory, path)?;
     let removed = std::fs::remove_file(&temporary);
     forget(&temporary);
     removed
@@ -270,7 +271,12 @@ mod tests {
                     }
                 });
             }
-            let put_all = || (0..3000).try_for_each(|i: u32| put(&path, &i.to_le_bytes()));
+            let put_all = || {
+                (0..600).try_for_each(|i: u32| {
+                    check_writable(&path)?;
+                    put(&path, &i.to_le_bytes())
+                })
+            };
             let result = std::panic::catch_unwind(put_all);
             is_done.store(true, Ordering::Relaxed);
             result.unwrap().unwrap();
