@@ -80,7 +80,7 @@ const COMMANDS: &[Command] = &[
     Command {
         name: "bench",
         arguments: "machine|rays|transport|CRATE [ARGUMENTS]",
-        about: "benchmarks: scaling with threads, triangles, pixels and so on, rays against Embree, modes of rendering at equal time, or those of one crate",
+        about: "benchmarks: machine (scaling with threads, triangles, pixels and so on; all with --full), rays against Embree, transport (ways of rendering at equal time), window, or those of one crate",
         run: bench::run,
     },
     Command {

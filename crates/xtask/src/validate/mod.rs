@@ -82,6 +82,9 @@ impl Options {
                 _ => return Err(USAGE.into()),
             }
         }
+        if options.resume && options.form == Form::Quick {
+            return Err(format!("--resume goes on with a run of --full, which keeps its pictures\n{USAGE}"));
+        }
         Ok(Self { jobs: options.jobs.max(1), ..options })
     }
 
@@ -141,7 +144,7 @@ pub fn run(arguments: &[String]) -> Outcome {
     let console = Console::new(options.console.clone(), &options.out.join("scenes"), options.jobs, keep)?;
     if checks.iter().any(|check| check.mitsuba.is_some()) {
         // Before all that takes long: it may need a network.
-        venv::for_validation()?;
+        venv::for_validation().map_err(|error| format!("{error}\n--no-mitsuba does without it"))?;
     }
     let ways = signs::ways(&checks);
     let comparisons = comparisons(&checks);

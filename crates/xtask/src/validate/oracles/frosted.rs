@@ -60,10 +60,12 @@ fn interface(degrees: f64, radiance: f64, light: &str) -> String {
 
 /// The shares of light that facets reflect and let through at once, seen from outside under a cosine.
 fn shares(cos: f64) -> [f64; 2] {
-    shares_of(cos, EXPONENT, [1000, 300])
+    facets(INDEX, EXPONENT, cos, [1000, 300])
 }
 
-fn shares_of(cos: f64, exponent: f64, [steps, turns]: [u32; 2]) -> [f64; 2] {
+/// The same of an index and an exponent, by quadrature in so many steps of slope and turn: ∫ F D G₂ (o·h) / cos o dh over normals, with
+/// Smith's masking (Walter et al. 2007); of both directions by one height where light is reflected (Heitz 2014, equation 99).
+pub fn facets(index: f64, exponent: f64, cos: f64, [steps, turns]: [u32; 2]) -> [f64; 2] {
     let a2 = 2.0 / (exponent + 2.0);
     let sin = (1.0 - cos * cos).sqrt();
     // Smith's G₁ is 1 / (1 + Λ).
@@ -83,14 +85,14 @@ fn shares_of(cos: f64, exponent: f64, [steps, turns]: [u32; 2]) -> [f64; 2] {
     };
     let reflected = |dot: f64, z: f64| {
         let out = 2.0 * dot * z - cos;
-        if out > 0.0 { fresnel(dot, INDEX) / (1.0 + lambda(cos) + lambda(out)) } else { 0.0 }
+        if out > 0.0 { fresnel(dot, index) / (1.0 + lambda(cos) + lambda(out)) } else { 0.0 }
     };
     // Snell's law gives the cosine to the facet on the other side, and with it how far down the light goes.
     let passed = |dot: f64, z: f64| {
-        let inside = (1.0 - (1.0 - dot * dot) / (INDEX * INDEX)).sqrt();
-        let down = cos / INDEX + z * (inside - dot / INDEX);
+        let inside = (1.0 - (1.0 - dot * dot) / (index * index)).sqrt();
+        let down = cos / index + z * (inside - dot / index);
         if down > 0.0 {
-            (1.0 - fresnel(dot, INDEX)) / ((1.0 + lambda(cos)) * (1.0 + lambda(down)))
+            (1.0 - fresnel(dot, index)) / ((1.0 + lambda(cos)) * (1.0 + lambda(down)))
         } else {
             0.0
         }
@@ -106,7 +108,7 @@ mod tests {
     #[test]
     fn shares_have_their_limits() {
         for cos in [1.0, 0.5] {
-            let [reflected, passed] = shares_of(cos, 1e7, [1000, 300]);
+            let [reflected, passed] = facets(INDEX, 1e7, cos, [1000, 300]);
             let mirror = fresnel(cos, INDEX);
             assert!(
                 (reflected - mirror).abs() < 1e-4 && (passed - 1.0 + mirror).abs() < 1e-4,
@@ -114,7 +116,7 @@ mod tests {
             );
             let [reflected, passed] = shares(cos);
             assert!((0.9..1.0).contains(&(reflected + passed)), "{reflected} {passed}");
-            let finer = shares_of(cos, EXPONENT, [3000, 500]);
+            let finer = facets(INDEX, EXPONENT, cos, [3000, 500]);
             assert!(
                 (finer[0] - reflected).abs() < 1e-6 && (finer[1] - passed).abs() < 1e-6,
                 "{finer:?} {reflected} {passed}"

@@ -4,6 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::super::check::{Check, TECHNIQUES};
 use super::super::text::uniform;
+use super::frosted::facets;
 use super::furnaces::sheet_in_even_light;
 use super::glass::fresnel;
 use super::{integral, material};
@@ -103,28 +104,9 @@ fn clay(sigma: f64, grey: f64, degrees: f64) -> Check {
         .quickly(48)
 }
 
-/// Share of light that facets reflect at once, seen under a cosine: ∫ F D G₂ (o·h) / cos o dh over normals whose reflection
-/// leaves the surface. Smith's masking of both directions by one height (Heitz 2014, equation 99).
+/// Share of light that facets reflect at once, seen under a cosine; of nearly smooth ones Fresnel's reflectance.
 fn coat_albedo(index: f64, exponent: f64, cos: f64) -> f64 {
-    let a2 = (2.0 / (exponent + 2.0)).max(1e-8);
-    if a2 < 1e-7 {
-        return fresnel(cos, index);
-    }
-    let sin = (1.0 - cos * cos).sqrt();
-    let lambda = |c: f64| 0.5 * ((1.0 + a2 * (1.0 / (c * c) - 1.0)).sqrt() - 1.0);
-    // Normals by their slope: with tan² = a² p / (1 − p), D cos dh is evenly spread over p and the azimuth.
-    integral(0.0, 1.0, 1000, |p| {
-        let z = (1.0 / (1.0 + a2 * p / (1.0 - p))).sqrt();
-        let r = (1.0 - z * z).sqrt();
-        2.0 * integral(0.0, 0.5, 300, |turn| {
-            let dot = sin * r * (TAU * turn).cos() + cos * z;
-            let out = 2.0 * dot * z - cos;
-            if dot <= 0.0 || out <= 0.0 {
-                return 0.0;
-            }
-            fresnel(dot, index) * dot / (cos * z * (1.0 + lambda(cos) + lambda(out)))
-        })
-    })
+    if exponent > 1e7 { fresnel(cos, index) } else { facets(index, exponent, cos, [1000, 300])[0] }
 }
 
 /// The share of light that one bounce among white facets scatters: equation 27 of Oren and Nayar 1994, with α the larger
