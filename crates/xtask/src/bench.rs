@@ -2,11 +2,14 @@
 
 use crate::{Outcome, bench_machine, bench_rays, display, process};
 
+const USAGE: &str = "usage: cargo xtask bench machine|rays|transport|window|CRATE [ARGUMENTS]";
+
 /// `machine` measures how the console scales, `rays` races our ray kernel against Embree, `transport` the ways of rendering against each other, `window` what the window costs; any other word
 /// is a crate whose benchmarks are run.
 pub fn run(arguments: &[String]) -> Outcome {
     match arguments.split_first() {
-        None => Err("usage: cargo xtask bench machine|rays|transport|window|CRATE [ARGUMENTS]".into()),
+        None => Err(USAGE.into()),
+        Some((name, _)) if name.starts_with('-') => Err(USAGE.into()),
         Some((name, rest)) if name == "machine" => bench_machine::run(rest),
         Some((name, rest)) if name == "rays" => bench_rays::run(rest),
         Some((name, rest)) if name == "transport" => {

@@ -1,5 +1,6 @@
 //! Renders scenes with the release console.
 
+use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::Mutex;
@@ -15,7 +16,7 @@ use crate::{Outcome, here, process};
 /// The settings that `text::settings` writes, in whose place a renderer's own stand.
 pub const TECHNIQUE: &str = "<metropolis>false</metropolis><bidirectional>false</bidirectional>";
 /// How long a render may take: the longest of the full form are minutes.
-const LIMIT: Duration = Duration::from_hours(1);
+const LIMIT: Duration = Duration::from_mins(10);
 
 /// The console, and where it may write.
 pub struct Console {
@@ -31,6 +32,7 @@ pub struct Console {
     pub keep: Keep,
     /// Of the program.
     stamp: Stamp,
+    _lock: File,
 }
 
 /// Writes a scene to be rendered by one of Indigo's ways, and its files, into a folder; gives its path.
@@ -92,6 +94,18 @@ struct Render {
     seconds: f64,
 }
 
+/// A file that stays locked while a run uses its folder: two runs would take each other's pictures.
+fn lock(folder: &Path) -> Result<File, String> {
+    let path = folder.join("lock");
+    let fault = |why: &dyn std::fmt::Display| format!("{}: {why}", path.display());
+    let file = File::create(&path).map_err(|error| fault(&error))?;
+    match file.try_lock() {
+        Err(TryLockError::WouldBlock) => Err(format!("another run uses {}", folder.display())),
+        // Where there are no locks, none is missed.
+        _ => Ok(file),
+    }
+}
+
 /// One call of the console.
 struct Job<'a> {
     check: &'a Check,
@@ -119,7 +133,8 @@ impl Console {
         let folder = std::fs::canonicalize(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
         let bytes = std::fs::read(&program).map_err(|e| format!("{}: {e}", program.display()))?;
         let stamp = Stamp::of([&bytes[..]]);
-        Ok(Self { program, folder, jobs, is_built_here, keep, stamp })
+        let lock = lock(&folder)?;
+        Ok(Self { program, folder, jobs, is_built_here, keep, stamp, _lock: lock })
     }
 
     /// The console's own words, and the commit if it was built here from one.
@@ -303,12 +318,43 @@ fn ended(command: &mut Command, log: &Path, limit: Duration) -> Result<(), Strin
     if status.success() {
         return Ok(());
     }
-    Err(format!("{status}\n{}", std::fs::read_to_string(log).unwrap_or_default()))
+    let said = std::fs::read(log).unwrap_or_default();
+    Err(format!("{status}\n{}", end_of(&String::from_utf8_lossy(&said))))
+}
+
+/// The last lines of what a program said: why it ended, and not all before.
+fn end_of(text: &str) -> String {
+    const LINES: usize = 20;
+    const LONGEST: usize = 400;
+    let count = text.lines().count();
+    let left_out = count.saturating_sub(LINES);
+    let note = (left_out > 0).then(|| format!("({left_out} lines before these)"));
+    let lines = text.lines().skip(left_out).map(|line| line.chars().take(LONGEST).collect());
+    note.into_iter().chain(lines).collect::<Vec<String>>().join("\n")
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_last_lines_are_told() {
+        assert_eq!(end_of("a\nb\n"), "a\nb");
+        let many: String = (0..50).map(|i| format!("{i}\n")).collect();
+        let end = end_of(&many);
+        assert!(end.starts_with("(30 lines before these)\n30\n") && end.ends_with("\n49"), "{end}");
+    }
+
+    #[test]
+    fn one_run_uses_a_folder() {
+        let folder = std::env::temp_dir().join(format!("indigo-locked-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).expect("a folder");
+        let first = lock(&folder);
+        assert!(first.is_ok() && lock(&folder).is_err_and(|why| why.contains("another run")));
+        drop(first);
+        assert!(lock(&folder).is_ok());
+        std::fs::remove_dir_all(folder).expect("it was made");
+    }
 
     #[cfg(unix)]
     #[test]

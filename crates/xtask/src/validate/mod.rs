@@ -165,7 +165,7 @@ pub fn run(arguments: &[String]) -> Outcome {
     let report = Report {
         checked,
         extent: left_out.words(count),
-        command: format!("cargo xtask validate {}", arguments.join(" ")),
+        command: format!("cargo xtask validate {}", typed(arguments)),
         date,
         machine: here::machine(),
         seconds: start.elapsed().as_secs_f64(),
@@ -180,9 +180,16 @@ pub fn run(arguments: &[String]) -> Outcome {
     match (report.failures().count(), report.broken().count()) {
         (0, 0) => Ok(()),
         (failed, broken) => Err(format!(
-            "{failed} of {comparisons} comparisons failed, and {broken} checks were not rendered"
+            "{failed} of {} comparisons failed, and {broken} checks were not rendered",
+            report.verdicts().count()
         )),
     }
+}
+
+/// Arguments as they may be typed.
+fn typed(arguments: &[String]) -> String {
+    let quoted = |word: &String| if word.contains(' ') { format!("\"{word}\"") } else { word.clone() };
+    arguments.iter().map(quoted).collect::<Vec<_>>().join(" ")
 }
 
 /// A line of a check: what is rendered of it, and with how many samples per pixel.

@@ -36,7 +36,11 @@ impl Picture {
         if asked == self.size.map(Some) {
             return Ok(self);
         }
-        Err(format!("a picture of {:?} pixels, of which the scene wants {asked:?}", self.size))
+        let [width, height] = self.size;
+        let [asked_width, asked_height] = asked.map(Option::unwrap_or_default);
+        Err(format!(
+            "a picture of {width} × {height} pixels, where the scene asks for {asked_width} × {asked_height}"
+        ))
     }
 
     /// Mean X, Y, Z of an area, or of all.

@@ -248,7 +248,7 @@ pub fn sentence(check: &Check, verdict: &Verdict) -> String {
     let percent = 100.0 * (m.mean / e.mean - 1.0);
     let _ = write!(
         text,
-        ": {reason}: {:.6} ± {:.6}, {against} {:.6} ({percent:+.3} %), {t:+.1} standard errors, p = {p:.1e}",
+        ": {reason}: {:.6} (standard error {:.6}), {against} {:.6} ({percent:+.3} %), {t:+.1} standard errors, p = {p:.1e}",
         m.mean, m.error, e.mean
     );
     text
