@@ -121,8 +121,7 @@ fn lamps() -> Vec<Point> {
 /// A wall with a picture.
 fn texels() -> Vec<Point> {
     let of = |side: usize| {
-        let kind = "<diffuse><albedo_texture><texture><path>map.exr</path><exponent>1</exponent><b>0.8</b></texture>\
-                    </albedo_texture></diffuse>";
+        let kind = "<diffuse><albedo_texture><path>map.exr</path><exponent>1</exponent><b>0.8</b></albedo_texture></diffuse>";
         let scene = seen(128, &[material("mapped", kind), wall([0.0, -1.0, 0.0], "mapped", 1.0)]);
         let value =
             |x: usize, y: usize| if (x * 8 / side + y * 8 / side).is_multiple_of(2) { 0.9 } else { 0.3 };
