@@ -120,7 +120,7 @@ impl Accel {
         })
     }
 
-    /// Bounds, for each axis, how far beside a triangle a ray that leaves it may find it; none where the object is not a mesh or
+    /// Bounds, for each axis, how far beside a triangle a ray that leaves it may find it; 0 where the object is not a mesh or
     /// has no such triangle.
     pub fn test_error(&self, object: u32, triangle: u32) -> Vec3 {
         self.placed(object, triangle, 0.0).map_or(Vec3::ZERO, |placed| placed.test_error().cast())

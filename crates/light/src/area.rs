@@ -94,7 +94,7 @@ impl AreaLight {
         self
     }
 
-    /// The lamp with a bound, for each of its triangles and each axis, of how far beside it a ray may find it. Without it
+    /// The lamp with a bound, for each of its triangles and each axis, of how far beside it a ray may find it. Without that
     /// points are told as surely as they are drawn, and rays to them may meet the lamp itself.
     #[must_use]
     pub fn with_test_errors(mut self, error: impl Fn(u32) -> Vec3) -> Self {

@@ -148,7 +148,9 @@ impl Lights {
         let number = |group: u16| numbers[usize::from(group)];
         let mut objects = vec![u32::MAX; self.lamps.len()];
         for (object, lamp) in (0..).zip(geometry.lights()) {
-            lamp.into_iter().for_each(|lamp| objects[lamp as usize] = object);
+            if let Some(lamp) = lamp {
+                objects[lamp as usize] = object;
+            }
         }
         let in_order = |(lamp, object): (AreaLight, u32)| {
             let group = number(lamp.group());
