@@ -86,6 +86,8 @@ pub fn run(arguments: &[String]) -> Outcome {
 /// A copy of the working tree, in which mistakes are made and built.
 struct Bench {
     folder: PathBuf,
+    /// The p-value below which the quick form of all checks tells a deviation: fewer have a looser threshold.
+    threshold: f64,
 }
 
 /// How many comparisons of a report there were, and failed because they deviate.
@@ -97,7 +99,7 @@ struct Said {
 impl Bench {
     fn new() -> Result<Self, String> {
         let folder = process::target_dir().join("mistakes");
-        let bench = Self { folder };
+        let bench = Self { folder, threshold: quick_threshold() };
         let listed = process::capture(&mut process::command("git", &["ls-files", "-z"]))?;
         for name in String::from_utf8_lossy(&listed).split('\0').filter(|name| !name.is_empty()) {
             bench.put(name, &read(&process::root().join(name))?)?;
@@ -167,15 +169,14 @@ impl Bench {
             .flatten();
         Ok(Said {
             all: report["comparisons"].as_u64().unwrap_or_default(),
-            deviating: verdicts.filter(|verdict| is_told(verdict)).count(),
+            deviating: verdicts.filter(|verdict| self.tells(verdict)).count(),
         })
     }
-}
 
-/// Whether the quick form of all checks would tell a comparison that deviates: fewer have a looser threshold.
-fn is_told(verdict: &Value) -> bool {
-    let surprises = verdict["p"].as_f64().is_some_and(|p| p < quick_threshold());
-    verdict["failure"] == "deviates" && surprises
+    /// Whether the quick form of all checks would tell a comparison that deviates.
+    fn tells(&self, verdict: &Value) -> bool {
+        verdict["failure"] == "deviates" && verdict["p"].as_f64().is_some_and(|p| p < self.threshold)
+    }
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, String> {

@@ -89,14 +89,12 @@ impl Verdict {
         };
         self
     }
-}
 
-impl Verdict {
     /// The resolution, were the noise as little as its standard error allows at the threshold: it is known by a few renders, and may have
     /// come out large by chance.
     fn least_resolution(&self) -> f64 {
-        let certain = self.noise / inflation(self.threshold, self.comparison.freedom);
-        if self.noise > 0.0 { self.resolution - self.noise + certain } else { self.resolution }
+        let by_chance = 1.0 - 1.0 / inflation(self.threshold, self.comparison.freedom);
+        self.resolution - by_chance * self.noise
     }
 
     /// Whether it resolves less finely than it should, if not surely so.

@@ -251,5 +251,9 @@ pub fn sentence(check: &Check, verdict: &Verdict) -> String {
         ": {reason}: {:.6} (standard error {:.6}), {against} {:.6} ({percent:+.3} %), {t:+.1} standard errors, p = {p:.1e}",
         m.mean, m.error, e.mean
     );
+    if verdict.failure == Some(Failure::Unresolved) {
+        let [shows, must] = [verdict.resolution, verdict.demand].map(|share| 100.0 * share);
+        let _ = write!(text, "; shows {shows:.3} % where {must} % must be");
+    }
     text
 }
